@@ -1,0 +1,144 @@
+// case.h: the user's words, validated: plain structs with defaults and SI units. Never changed after loading.
+// Every optional key is a std::optional: an absent key is an absent effect.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "kernels/base/vec.h"
+
+namespace scree {
+
+// All problems of one input at once, a line each: "file:line: key: value ... allowed ... way out".
+class InputError : public std::runtime_error {
+ public:
+  explicit InputError(std::vector<std::string> found);
+  std::vector<std::string> problems;
+};
+
+enum class ContactLaw { winkler };  // linear and hertz: not in this version
+enum class Evaluator { net, analytic };
+enum class WallKind { plane, box };
+enum class Orientation { random, aligned };
+
+struct SettleCase {
+  double damping = 5.0;             // global damping while it is on [1/s]
+  double after = 0;                 // switched on at [s]
+  double kinetic_per_grain = 1e-8;  // at rest when the largest kinetic energy of a grain is below this [m g d]
+  double hold = 0.2;                // ... over this long with the damping released [s]
+};
+
+struct TimeCase {
+  double end = 1.0;            // [s]
+  std::optional<double> step;  // absent: automatic [s]
+  double safety = 0.3;         // of the critical step
+  std::optional<SettleCase> settle;
+};
+
+struct LibraryCase {
+  std::string name;
+  std::filesystem::path file;  // resolved
+};
+
+struct MaterialCase {
+  std::string name;
+  double density = 2650;  // [kg/m3]
+};
+
+struct ContactCase {
+  std::pair<std::string, std::string> pair;
+  ContactLaw law = ContactLaw::winkler;
+  // Normal stiffness: kappa [N/m3], or stiffness [N/m] as a secant at overlap at_overlap * d (physics.md section 1),
+  // in which case kappa follows from the largest grain diameter d of the case, R* = d/4.
+  std::optional<double> kappa;
+  double stiffness = 2e6;
+  double at_overlap = 0.01;
+  double tangential_ratio = 0.5;        // k_t / k_n
+  std::optional<double> friction;       // absent: frictionless, no history exists
+  std::optional<double> damping_ratio;  // zeta; or ...
+  std::optional<double> restitution;    // ... e, mapped through the law's table
+};
+
+struct InsertCase {
+  // lattice: cell centres of a cubic lattice filling `box` from the bottom, cell = the largest bounding diameter
+  // of the entry; list: explicit positions (and orientations).
+  enum class Kind { lattice, list } kind = Kind::lattice;
+  Box box;  // [m]
+  Orientation orientation = Orientation::random;
+  Vec3 velocity;                 // [m/s]
+  Vec3 spin;                     // [rad/s]
+  std::vector<Vec3> position;    // list: [m]
+  std::vector<Quat> quaternion;  // list: as many as positions, or empty
+};
+
+struct GrainsCase {
+  std::string name, material;
+  std::vector<std::string>
+      shapes;  // "library:pattern/*", or built-in "sphere", "ellipsoid:1:0.8:0.6",
+               // "superellipsoid:1:0.8:0.6:0.5" (semi-axis ratios, exponent), "box:1:1:1"; equal shares
+  Evaluator evaluator = Evaluator::net;
+  int nodes = 4000;  // surface nodes a grain; "fast" = 1000
+  int count = 0;
+  double diameter = 0.1;  // of the equal-volume sphere [m]
+  InsertCase insert;
+};
+
+struct WallCase {
+  std::string name, material;
+  WallKind kind = WallKind::plane;
+  Vec3 point, normal{0, 0, 1};    // plane: a point on it [m], normal into the free space
+  Vec3 min, max;                  // box, free space inside [m]
+  std::vector<std::string> open;  // faces left out: "-x" "+x" "-y" "+y" "-z" "+z"
+};
+
+struct OutputCase {
+  double every = 0.02;  // [s]
+  bool paraview = false;
+};
+
+struct CheckpointCase {
+  double every = 0.5;  // [s]
+  int keep = 2;
+};
+
+struct LimitsCase {
+  double overlap = 0.05;  // the watch stops the run above this [d]
+  double gradient_low = 0.5, gradient_high = 2.0;
+  double ledger = 1e-3;  // of the energy moved
+};
+
+struct Case {
+  std::filesystem::path file;  // where it came from; empty when built in code
+  std::string name = "case";
+  std::uint64_t seed = 1;
+  TimeCase time;
+  std::optional<Vec3> gravity;  // [m/s2]; absent: none
+  std::vector<LibraryCase> library;
+  std::vector<MaterialCase> material;
+  std::vector<ContactCase> contact;
+  std::vector<GrainsCase> grains;
+  std::vector<WallCase> wall;
+  OutputCase output;
+  std::optional<CheckpointCase> checkpoint;
+  LimitsCase limits;
+};
+
+// Read and validate. `overrides` are "key=value" from --set ("grains.0.count=50", "grains.mix.count=50" by name,
+// "time.end=2"). Relative paths: the case file's folder, then $SCREE_LIBRARY, then `share`.
+// Throws InputError with all problems (a TOML syntax error comes alone).
+Case load_case(std::filesystem::path const& file, std::vector<std::string> const& overrides,
+               std::filesystem::path const& share = {});
+
+// The effective case as TOML text, every default written out; load_case of it gives the same Case.
+std::string to_toml(Case const& c);
+
+// Everything wrong that can be seen without opening other files; empty = valid. Used by load_case and by API users.
+std::vector<std::string> problems(Case const& c);
+
+}  // namespace scree

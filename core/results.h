@@ -1,0 +1,85 @@
+// results.h: the results file of a run: written frame by frame, read back by render, export and tests.
+// HDF5 behind the 512-byte user block of shapes/file_container.h; layout in the design's formats.md.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "kernels/base/vec.h"
+#include "shapes/shape.h"
+
+namespace scree {
+
+struct ResultsWall {  // enough to draw a wall: the solid is behind the plane
+  std::string name;
+  Vec3 point, normal;  // world [m]; the normal points into the free space
+};
+
+struct ResultsHeader {
+  std::string case_text;                      // effective case, TOML
+  std::vector<std::string> shape_name;        // distinct shapes used
+  Library library;                            // only the shapes used, so that results render without the model file
+  std::vector<int> shape;                     // of body (n): index into shape_name and library.shape
+  std::vector<double> diameter;               // [m] (n)
+  std::vector<int> material, group, replica;  // (n)
+  std::vector<ResultsWall> wall;
+  Box domain;  // of walls and initial grains, for cameras [m]
+};
+
+struct Frame {
+  double time = 0;  // [s]
+  std::int64_t step = 0;
+  std::vector<Vec3> position;     // [m] (n)
+  std::vector<Quat> orientation;  // body -> world (n)
+  std::vector<Vec3> velocity;     // [m/s] (n)
+  std::vector<Vec3> spin;         // world [rad/s] (n)
+};
+
+struct LedgerRow {  // [J]; see core/energy.h
+  double time = 0, kinetic = 0, potential = 0, elastic_normal = 0, elastic_tangential = 0;
+  double inserted = 0, wall_work = 0, damping = 0, friction = 0, global_damping = 0, removed = 0;
+  double residual = 0, moved = 0;
+};
+
+struct StageRow {
+  std::string name;
+  double seconds = 0;
+  std::int64_t calls = 0, items = 0;
+};
+
+class ResultsWriter {
+ public:
+  // Creates `file` under a temporary name; finish() seals the container (CRC) and renames. A run that dies leaves the
+  // temporary file, readable up to its last flushed frame with recover = true.
+  // Throws std::system_error naming the path when it cannot be written.
+  ResultsWriter(std::filesystem::path const& file, ResultsHeader const& header);
+  ~ResultsWriter();
+  void write_frame(Frame const& frame);
+  void write_ledger(LedgerRow const& row);
+  void finish(std::vector<StageRow> const& stages);
+
+ private:
+  struct Data;
+  std::unique_ptr<Data> data_;
+};
+
+class ResultsReader {
+ public:
+  explicit ResultsReader(std::filesystem::path const& file, bool recover = false);  // throws InputError
+  ~ResultsReader();
+  ResultsHeader const& header() const;
+  int frames() const;
+  Frame frame(int index) const;  // negative: from the end
+  std::vector<LedgerRow> ledger() const;
+  std::vector<StageRow> stages() const;
+
+ private:
+  struct Data;
+  std::unique_ptr<Data> data_;
+};
+
+}  // namespace scree

@@ -1,0 +1,115 @@
+// analytic.inl.h: bodies of analytic.h, inline because both compilers need them inside kernels.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "kernels/sdf/analytic.h"
+#include "kernels/sdf/superellipsoid.h"
+
+namespace scree {
+namespace detail {
+
+SCREE_HD inline double clamp_min(double value, double low) { return value > low ? value : low; }
+SCREE_HD inline double with_sign(double magnitude, double sign) { return sign < 0 ? -magnitude : magnitude; }
+SCREE_HD inline Vec3 absolute(Vec3 v) { return {std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}; }
+SCREE_HD inline Vec3 with_signs(Vec3 v, Vec3 sign) {
+  return {with_sign(v.x, sign.x), with_sign(v.y, sign.y), with_sign(v.z, sign.z)};
+}
+
+SCREE_HD inline double sphere_distance(double radius, Vec3 x, Vec3* gradient) {
+  double const r = norm(x);
+  if (gradient) *gradient = r > 0 ? x * (-1 / r) : Vec3{0, 0, -1};  // the centre has no gradient: any unit vector
+  return radius - r;
+}
+
+// Closest point of an ellipsoid by the secular equation |p(t)| = 1, p_i = a_i x_i / (t + a_i^2) (Eberly, "Distance from
+// a point to an ellipsoid"), Newton on 1/|p| - 1, which is nearly linear and converges from the left (More, Sorensen
+// 1983). A floor on |x_i| removes the degenerate interior cases at an error of 1e-13 of the size.
+SCREE_HD inline double ellipsoid_distance(Vec3 a, Vec3 x, Vec3* gradient) {
+  Vec3 y = absolute(x);
+  double t = -1e300;
+  for (int i = 0; i < 3; ++i) {
+    y[i] = clamp_min(y[i], 1e-13 * a[i]);
+    t = clamp_min(t, -a[i] * a[i] + a[i] * y[i]);
+  }
+  Vec3 p;
+  for (int iteration = 0; iteration < 60; ++iteration) {
+    double length2 = 0, slope = 0;  // slope = -d(length2)/dt / 2
+    for (int i = 0; i < 3; ++i) {
+      double const s = 1 / (t + a[i] * a[i]);
+      p[i] = a[i] * y[i] * s;
+      length2 += p[i] * p[i];
+      slope += p[i] * p[i] * s;
+    }
+    double const length = std::sqrt(length2);
+    double const step = length2 / slope * (length - 1);
+    t += step;
+    if (!(std::fabs(step) > 1e-16 * (std::fabs(t) + a.x * a.x))) break;
+  }
+  Vec3 const closest = multiply(a, p);
+  Vec3 const n = normalized(divide(p, a));  // outward normal of x^2/a^2 + ... = 1 at `closest`
+  if (gradient) *gradient = with_signs(-n, x);
+  return dot(n, closest - y);
+}
+
+SCREE_HD inline double box_distance(Vec3 half, Vec3 x, Vec3* gradient) {
+  Vec3 const q = absolute(x) - half;
+  if (q.x <= 0 && q.y <= 0 && q.z <= 0) {
+    int const k = q.x > q.y ? (q.x > q.z ? 0 : 2) : (q.y > q.z ? 1 : 2);
+    if (gradient) {
+      *gradient = {};
+      (*gradient)[k] = x[k] < 0 ? 1 : -1;
+    }
+    return -q[k];
+  }
+  Vec3 const out{clamp_min(q.x, 0), clamp_min(q.y, 0), clamp_min(q.z, 0)};
+  double const distance = norm(out);
+  if (gradient) *gradient = with_signs(out * (-1 / distance), x);
+  return -distance;
+}
+
+}  // namespace detail
+
+SCREE_HD inline double signed_distance(AnalyticSdf const& shape, Vec3 x, Vec3* gradient) {
+  switch (shape.kind) {
+    case AnalyticKind::sphere:
+      return detail::sphere_distance(shape.half_size.x, x, gradient);
+    case AnalyticKind::ellipsoid:
+      return detail::ellipsoid_distance(shape.half_size, x, gradient);
+    case AnalyticKind::superellipsoid:
+      return detail::superellipsoid_distance(shape.half_size, shape.exponent_ns, shape.exponent_ew, x, gradient);
+    case AnalyticKind::box:
+      return detail::box_distance(shape.half_size, x, gradient);
+    case AnalyticKind::plane:
+      if (gradient) *gradient = {0, 0, -1};
+      return -x.z;
+  }
+  return -1e300;  // unreachable: every kind is listed; device code cannot throw
+}
+
+SCREE_HD inline double support(AnalyticSdf const& shape, Vec3 n, Vec3* point) {
+  Vec3 const a = shape.half_size;
+  Vec3 reached;
+  switch (shape.kind) {
+    case AnalyticKind::sphere:
+      reached = n * a.x;
+      break;
+    case AnalyticKind::ellipsoid: {
+      Vec3 const an = multiply(a, n);
+      reached = multiply(a, an) / norm(an);
+      break;
+    }
+    case AnalyticKind::superellipsoid:
+      reached = detail::with_signs(
+          detail::superellipsoid_support(a, shape.exponent_ns, shape.exponent_ew, detail::absolute(n)), n);
+      break;
+    case AnalyticKind::box:
+      reached = detail::with_signs(a, n);
+      break;
+    case AnalyticKind::plane:
+      return n.z > 0 ? 0 : 1e300;
+  }
+  if (point) *point = reached;
+  return dot(n, reached);
+}
+
+}  // namespace scree

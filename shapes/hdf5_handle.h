@@ -1,0 +1,73 @@
+// hdf5_handle.h: ownership of HDF5 identifiers, and the few reads and writes our files are made of.
+// Every function throws std::runtime_error naming the object; file names are added by the caller.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <hdf5.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace scree::hdf5 {
+
+// Closes its identifier. Construction from a negative identifier throws `what`.
+class Handle {
+ public:
+  Handle() = default;
+  Handle(hid_t id, herr_t (*close)(hid_t), std::string const& what);
+  ~Handle();
+  Handle(Handle&& other) noexcept : id_(other.id_), close_(other.close_) { other.id_ = -1; }
+  Handle& operator=(Handle&& other) noexcept;
+  operator hid_t() const { return id_; }
+  // Close now and throw `what` if that fails: closing a file is what writes it.
+  void close(std::string const& what);
+
+ private:
+  hid_t id_ = -1;
+  herr_t (*close_)(hid_t) = nullptr;
+};
+
+// HDF5 prints its error stack to stderr by default; while this lives it does not. Exceptions carry what went wrong.
+class QuietErrors {
+ public:
+  QuietErrors();
+  ~QuietErrors();
+  QuietErrors(QuietErrors const&) = delete;
+  QuietErrors& operator=(QuietErrors const&) = delete;
+
+ private:
+  H5E_auto2_t function_ = nullptr;
+  void* data_ = nullptr;
+};
+
+// A new file whose first 512 bytes belong to the container (file_container.h); an existing file that passed its check.
+Handle create_file(std::string const& file);
+Handle open_file(std::string const& file);
+
+// Groups by absolute path; create_group makes the missing parents too.
+Handle create_group(hid_t file, std::string const& path);
+Handle open_group(hid_t file, std::string const& path);
+bool has_group(hid_t file, std::string const& path);
+std::vector<std::string> group_names(hid_t group);  // child groups, in alphabetical order
+
+// Attributes. Reads demand the count (or any count where it is -1); numbers are stored little-endian.
+void write_attribute(hid_t at, char const* name, double const* value, int count);
+void write_attribute(hid_t at, char const* name, std::int64_t value);
+void write_attribute(hid_t at, char const* name, std::string const& value);
+bool has_attribute(hid_t at, char const* name);
+std::vector<double> read_doubles(hid_t at, char const* name, int count);
+std::int64_t read_integer(hid_t at, char const* name);
+std::string read_string(hid_t at, char const* name);
+
+// Float arrays of rank 1 (columns = -1) or 2, row-major.
+struct FloatArray {
+  std::vector<float> value;
+  int rows = 0;
+  int columns = -1;
+};
+void write_floats(hid_t at, char const* name, FloatArray const& array);
+bool has_dataset(hid_t at, char const* name);
+FloatArray read_floats(hid_t at, char const* name, int rank);
+
+}  // namespace scree::hdf5

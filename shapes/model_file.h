@@ -1,0 +1,18 @@
+// model_file.h: networks, codes, shapes and certificates in one HDF5 model file ("scree.model", version 1).
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+
+#include "shapes/shape.h"
+
+namespace scree {
+
+// Atomic (temporary name + rename); never overwrites unless `overwrite`. Throws std::runtime_error naming the file.
+void write_model(std::filesystem::path const& file, Library const& library, bool overwrite = false);
+
+// Throws std::runtime_error: missing, truncated, damaged, wrong kind or version, NaN weights (names the shape or
+// layer).
+Library read_model(std::filesystem::path const& file);
+
+}  // namespace scree

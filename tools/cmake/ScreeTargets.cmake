@@ -1,0 +1,36 @@
+# Target flags shared by all of Scree, as functions: nothing is set globally.
+
+# scree_target(name): include root, warnings, sanitizers. -ffp-contract=off because the compiler must not decide per
+# inlining context whether a*b+c is fused: the same expression has to give the same bits everywhere.
+function(scree_target name)
+  target_include_directories(${name} PUBLIC $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}> $<INSTALL_INTERFACE:include/scree>)
+  target_compile_features(${name} PUBLIC cxx_std_20)
+  target_compile_options(${name} PRIVATE $<$<COMPILE_LANGUAGE:CXX>:-Wall -Wextra -ffp-contract=off>)
+  if(SCREE_SANITIZE)
+    target_compile_options(${name} PUBLIC $<$<COMPILE_LANGUAGE:CXX>:-fsanitize=${SCREE_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all>)
+    target_link_options(${name} PUBLIC -fsanitize=${SCREE_SANITIZE})
+  endif()
+endfunction()
+
+# scree_library(name SOURCES ...): static library with alias scree::<name without scree_>.
+function(scree_library name)
+  cmake_parse_arguments(arg "" "" "SOURCES;HEADERS" ${ARGN})
+  add_library(${name} STATIC ${arg_SOURCES})
+  string(REPLACE "scree_" "" short ${name})
+  add_library(scree::${short} ALIAS ${name})
+  set_target_properties(${name} PROPERTIES EXPORT_NAME ${short} POSITION_INDEPENDENT_CODE ON)
+  if(arg_HEADERS)
+    target_sources(${name} PUBLIC FILE_SET HEADERS BASE_DIRS ${CMAKE_SOURCE_DIR} FILES ${arg_HEADERS})
+  endif()
+  scree_target(${name})
+endfunction()
+
+# scree_test(name SOURCES ... LIBRARIES ...): one GoogleTest program, one ctest entry a test case.
+function(scree_test name)
+  cmake_parse_arguments(arg "" "" "SOURCES;LIBRARIES" ${ARGN})
+  add_executable(${name} ${arg_SOURCES})
+  scree_target(${name})
+  target_link_libraries(${name} PRIVATE ${arg_LIBRARIES} GTest::gtest GTest::gtest_main)
+  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
+  add_test(NAME ${name} COMMAND ${name} WORKING_DIRECTORY ${CMAKE_BINARY_DIR})
+endfunction()
