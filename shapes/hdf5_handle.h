@@ -45,7 +45,7 @@ class QuietErrors {
 Handle create_file(std::string const& file);
 Handle open_file(std::string const& file);
 
-// Groups by absolute path; create_group makes the missing parents too.
+// Groups by path; create_group makes the missing parents too and opens what exists.
 Handle create_group(hid_t file, std::string const& path);
 Handle open_group(hid_t file, std::string const& path);
 bool has_group(hid_t file, std::string const& path);
