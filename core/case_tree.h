@@ -14,6 +14,7 @@ namespace scree {
 struct CaseNode {
   enum class Kind { table, array, string, integer, real, boolean, date } kind = Kind::table;
   std::string where;                                     // "file:line" or "--set"
+  int line = 0;                                          // 0: from --set
   std::vector<std::pair<std::string, CaseNode>> member;  // table, in order of appearance in the tree
   std::vector<CaseNode> element;                         // array
   std::string text;                                      // string

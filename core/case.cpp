@@ -1,0 +1,295 @@
+// case.cpp: from the tree of a case file to a validated Case.
+// SPDX-License-Identifier: Apache-2.0
+#include "core/case.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "core/case_check.h"
+#include "core/case_reader.h"
+
+namespace scree {
+namespace {
+
+void read_time(CaseReader r, TimeCase& out) {
+  r.number("end", out.end, Need::required);
+  if (CaseNode const* const step = r.present("step"); step && step->kind == CaseNode::Kind::string) {
+    if (step->text != "auto") r.report("step", fmt::format("'{}' is unknown; write \"auto\" or seconds", step->text));
+  } else if (step) {
+    r.number("step", out.step);
+  }
+  r.number("safety", out.safety);
+  if (auto settle = r.table("settle")) {
+    SettleCase& s = out.settle.emplace();
+    settle->number("damping", s.damping);
+    settle->number("after", s.after);
+    settle->number("kinetic_per_grain", s.kinetic_per_grain);
+    settle->number("hold", s.hold);
+    settle->finish();
+  }
+  r.finish();
+}
+
+void read_library(CaseReader r, LibraryCase& out) {
+  r.text("name", out.name, Need::required);
+  std::string file;
+  if (r.text("file", file, Need::required)) out.file = file;
+  r.finish();
+}
+
+void read_material(CaseReader r, MaterialCase& out) {
+  r.text("name", out.name, Need::required);
+  r.number("density", out.density, Need::required);
+  r.finish();
+}
+
+void read_normal(CaseReader r, ContactCase& out) {
+  bool const by_kappa = r.number("kappa", out.kappa);
+  bool const by_stiffness = r.number("stiffness", out.stiffness);
+  bool const at_overlap = r.number("at_overlap", out.at_overlap);
+  if (by_kappa && (by_stiffness || at_overlap))
+    r.report("kappa", "give either kappa [N/m3] or stiffness [N/m] with at_overlap, not both");
+  if (!by_kappa && !by_stiffness)
+    r.report("stiffness", "is missing: give stiffness [N/m] with at_overlap [d], or kappa [N/m3]");
+  r.finish();
+}
+
+void read_damping(CaseReader r, ContactCase& out) {
+  bool const by_ratio = r.number("ratio", out.damping_ratio);
+  bool const by_restitution = r.number("restitution", out.restitution);
+  if (by_ratio == by_restitution)
+    r.report("ratio", "give exactly one of ratio and restitution; leave damping out for none");
+  r.finish();
+}
+
+void read_contact(CaseReader r, ContactCase& out) {
+  std::vector<std::string> pair;
+  if (r.texts("pair", pair, Need::required)) {
+    if (pair.size() == 2)
+      out.pair = {pair[0], pair[1]};
+    else
+      r.report("pair", fmt::format("must name two materials (the same one twice for a material with itself), not {}",
+                                   pair.size()));
+  }
+  r.choice<ContactLaw>("law", out.law, {{"winkler", ContactLaw::winkler}}, {"linear", "hertz"});
+  if (auto normal = r.table("normal", Need::required)) read_normal(*normal, out);
+  r.number("tangential_ratio", out.tangential_ratio);
+  r.number("friction", out.friction);
+  if (auto damping = r.table("damping")) read_damping(*damping, out);
+  r.unsupported({"rolling", "cohesion"});
+  r.finish();
+}
+
+void read_insert(CaseReader r, InsertCase& out) {
+  using Kind = InsertCase::Kind;
+  r.choice<Kind>("kind", out.kind, {{"lattice", Kind::lattice}, {"list", Kind::list}}, {"rate", "file"},
+                 Need::required);
+  if (out.kind == Kind::lattice) {
+    std::vector<Vec3> corner;
+    if (r.vectors("box", corner, Need::required)) {
+      if (corner.size() == 2)
+        out.box = {corner[0], corner[1]};
+      else
+        r.report("box", fmt::format("must be two corners [[x, y, z], [x, y, z]], not {}", corner.size()));
+    }
+  } else {
+    r.vectors("position", out.position, Need::required);
+    r.quaternions("quaternion", out.quaternion);
+  }
+  bool const oriented = r.choice<Orientation>("orientation", out.orientation,
+                                              {{"random", Orientation::random}, {"aligned", Orientation::aligned}});
+  if (oriented && !out.quaternion.empty())
+    r.report("orientation", "has no meaning beside quaternion: remove one of them");
+  r.vector("velocity", out.velocity);
+  r.vector("spin", out.spin);
+  r.finish();
+}
+
+void read_grains(CaseReader r, GrainsCase& out) {
+  r.text("name", out.name, Need::required);
+  r.text("material", out.material, Need::required);
+  r.texts("shapes", out.shapes, Need::required);
+  r.choice<Evaluator>("evaluator", out.evaluator, {{"net", Evaluator::net}, {"analytic", Evaluator::analytic}},
+                      {"grid", "mesh"});
+  if (CaseNode const* const nodes = r.present("nodes"); nodes && nodes->kind == CaseNode::Kind::string) {
+    if (nodes->text == "fast")
+      out.nodes = 1000;
+    else
+      r.report("nodes", fmt::format("'{}' is unknown; write a whole number or \"fast\" (1000)", nodes->text));
+  } else if (nodes) {
+    r.integer("nodes", out.nodes);
+  }
+  r.number("diameter", out.diameter, Need::required);
+  auto insert = r.table("insert", Need::required);
+  if (insert) read_insert(*insert, out.insert);
+  bool const listed = insert && out.insert.kind == InsertCase::Kind::list;
+  if (!r.integer("count", out.count, listed ? Need::optional : Need::required) && listed)
+    out.count = static_cast<int>(out.insert.position.size());
+  r.unsupported({"sample", "replicas", "group"});
+  r.finish();
+}
+
+void read_wall(CaseReader r, WallCase& out) {
+  r.text("name", out.name, Need::required);
+  r.text("material", out.material, Need::required);
+  bool const known = r.choice<WallKind>("kind", out.kind, {{"plane", WallKind::plane}, {"box", WallKind::box}},
+                                        {"cylinder", "cone", "capsule", "mesh", "terrain"}, Need::required);
+  if (!known) return;  // the other keys depend on the kind
+  if (out.kind == WallKind::plane) {
+    r.vector("point", out.point, Need::required);
+    r.vector("normal", out.normal, Need::required);
+  } else {
+    bool inside = true;
+    r.choice<bool>("side", inside, {{"inside", true}}, {"outside"});
+    r.vector("min", out.min, Need::required);
+    r.vector("max", out.max, Need::required);
+    r.texts("open", out.open);
+  }
+  r.unsupported({"motion", "file"});
+  r.finish();
+}
+
+void read_output(CaseReader r, OutputCase& out) {
+  r.number("every", out.every);
+  r.boolean("paraview", out.paraview);
+  r.finish();
+}
+
+void read_checkpoint(CaseReader r, CheckpointCase& out) {
+  r.number("every", out.every);
+  r.integer("keep", out.keep);
+  r.finish();
+}
+
+void read_limits(CaseReader r, LimitsCase& out) {
+  r.number("overlap", out.overlap);
+  if (CaseNode const* const node = r.present("gradient")) {
+    bool const two_numbers = node->kind == CaseNode::Kind::array && node->element.size() == 2 &&
+                             std::all_of(node->element.begin(), node->element.end(), [](CaseNode const& n) {
+                               return n.kind == CaseNode::Kind::integer || n.kind == CaseNode::Kind::real;
+                             });
+    if (two_numbers) {
+      out.gradient_low = node->element[0].real;
+      out.gradient_high = node->element[1].real;
+    } else {
+      r.report("gradient", "must be two numbers [low, high]");
+    }
+  }
+  r.number("ledger", out.ledger);
+  r.finish();
+}
+
+// Every [[key]] entry through `read`, appended to `out`.
+template <class T>
+void read_list(CaseReader& root, std::string const& key, std::vector<T>& out, void (*read)(CaseReader, T&)) {
+  for (CaseReader const& entry : root.tables(key)) read(entry, out.emplace_back());
+}
+
+void read_case(CaseReader root, Case& out) {
+  if (auto header = root.table("case")) {
+    header->text("name", out.name);
+    std::int64_t seed = static_cast<std::int64_t>(out.seed);
+    if (header->integer("seed", seed) && seed < 0) header->report("seed", fmt::format("{} must be >= 0", seed));
+    out.seed = static_cast<std::uint64_t>(seed);
+    header->unsupported({"replicas"});
+    header->finish();
+  }
+  if (auto time = root.table("time", Need::required)) read_time(*time, out.time);
+  if (auto gravity = root.table("gravity")) {
+    gravity->vector("acceleration", out.gravity.emplace(), Need::required);
+    gravity->finish();
+  }
+  read_list(root, "library", out.library, read_library);
+  read_list(root, "material", out.material, read_material);
+  read_list(root, "contact", out.contact, read_contact);
+  read_list(root, "grains", out.grains, read_grains);
+  read_list(root, "wall", out.wall, read_wall);
+  if (auto output = root.table("output")) read_output(*output, out.output);
+  if (auto checkpoint = root.table("checkpoint")) read_checkpoint(*checkpoint, out.checkpoint.emplace());
+  if (auto limits = root.table("limits")) read_limits(*limits, out.limits);
+  root.unsupported({"drag", "global_damping", "force", "deletion", "relax", "replicas", "measure"});
+  root.finish();
+}
+
+// The first place where `file` exists: the case's folder, $SCREE_LIBRARY, `share`; in the latter two also by its
+// bare name, so that an installed library serves cases that name a path of the source tree. Empty: nowhere.
+std::filesystem::path find_file(std::filesystem::path const& file, std::filesystem::path const& folder,
+                                std::filesystem::path const& share, std::vector<std::string>& tried) {
+  std::vector<std::filesystem::path> places{folder / file};
+  if (!file.is_absolute()) {
+    char const* const library = std::getenv("SCREE_LIBRARY");
+    for (std::filesystem::path const& base : {std::filesystem::path(library ? library : ""), share})
+      if (!base.empty()) places.insert(places.end(), {base / file, base / file.filename()});
+  }
+  for (std::filesystem::path const& place : places) {
+    std::error_code error;
+    if (std::filesystem::is_regular_file(place, error)) return std::filesystem::weakly_canonical(place, error);
+    tried.push_back(place.lexically_normal().string());
+  }
+  return {};
+}
+
+void resolve_files(Case& c, std::filesystem::path const& share, CaseProblems& problems) {
+  for (std::size_t i = 0; i < c.library.size(); ++i) {
+    if (c.library[i].file.empty()) continue;  // already reported
+    std::vector<std::string> tried;
+    std::filesystem::path const found = find_file(c.library[i].file, c.file.parent_path(), share, tried);
+    if (found.empty())
+      problems.add(fmt::format("library.{}.file", i),
+                   fmt::format("'{}' was not found; tried {}", c.library[i].file.string(), fmt::join(tried, ", ")));
+    else
+      c.library[i].file = found;
+  }
+}
+
+// One key inside the other: a wrong table makes its keys wrong too.
+bool related(std::string const& a, std::string const& b) {
+  std::string const& shorter = a.size() < b.size() ? a : b;
+  std::string const& longer = a.size() < b.size() ? b : a;
+  return longer.starts_with(shorter) && (longer.size() == shorter.size() || longer[shorter.size()] == '.');
+}
+
+std::vector<std::string> message_lines(Case const& c, CaseProblems const& problems) {
+  std::vector<std::pair<int, std::string>> lines;
+  for (CaseProblem const& p : problems.found) {
+    CaseProblems::Place const place = problems.place_of(p.key);
+    lines.emplace_back(place.line, fmt::format("{}: {}: {}", place.where, key_by_name(c, p.key), p.text));
+  }
+  std::stable_sort(lines.begin(), lines.end(), [](auto const& a, auto const& b) { return a.first < b.first; });
+  std::vector<std::string> out;
+  for (auto const& [line, text] : lines) out.push_back(text);
+  return out;
+}
+
+}  // namespace
+
+InputError::InputError(std::vector<std::string> found)
+    : std::runtime_error(fmt::format("{}", fmt::join(found, "\n"))), problems(std::move(found)) {}
+
+Case load_case(std::filesystem::path const& file, std::vector<std::string> const& overrides,
+               std::filesystem::path const& share) {
+  CaseNode root = parse_case_file(file);
+  std::vector<std::string> messages;
+  for (std::string const& assignment : overrides) apply_override(root, assignment, messages);
+  Case c;
+  c.file = file;
+  c.name = file.stem().string();
+  CaseProblems problems;
+  read_case(CaseReader(root, "", problems), c);
+  // Values that could not be read keep their defaults: judging those would only repeat the complaint.
+  std::size_t const unread = problems.found.size();
+  for (CaseProblem& p : check_case(c)) {
+    bool const repeated = std::any_of(problems.found.begin(), problems.found.begin() + unread,
+                                      [&](CaseProblem const& q) { return related(p.key, q.key); });
+    if (!repeated) problems.found.push_back(std::move(p));
+  }
+  resolve_files(c, share, problems);
+  for (std::string& line : message_lines(c, problems)) messages.push_back(std::move(line));
+  if (!messages.empty()) throw InputError(std::move(messages));
+  return c;
+}
+
+}  // namespace scree

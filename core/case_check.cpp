@@ -1,0 +1,341 @@
+// case_check.cpp: see case_check.h. Every message states value, allowed range and the reason for it.
+// SPDX-License-Identifier: Apache-2.0
+#include "core/case_check.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "core/nearest_name.h"
+
+namespace scree {
+namespace {
+
+double constexpr infinity = std::numeric_limits<double>::infinity();
+
+class Checker {
+ public:
+  explicit Checker(Case const& c) : c_(c) {}
+  std::vector<CaseProblem> run();
+
+ private:
+  void fail(std::string key, std::string text) { found_.push_back({std::move(key), std::move(text)}); }
+  // low < value <= high, or low <= value where `low_allowed`; NaN and infinity always fail.
+  void range(std::string const& key, double value, double low, bool low_allowed, double high, char const* reason);
+  void positive(std::string const& key, double value, char const* reason) {
+    range(key, value, 0, false, infinity, reason);
+  }
+  void finite(std::string const& key, Vec3 value);
+  bool known(std::string const& key, std::string const& name, std::vector<std::string> const& names, char const* what);
+  template <class T>
+  std::vector<std::string> names(std::vector<T> const& list, std::string const& key);
+
+  void time();
+  void materials();
+  void contacts();
+  void touching_pairs();
+  void shapes(std::string const& key, GrainsCase const& g);
+  void insertion(std::string const& key, GrainsCase const& g);
+  void grains();
+  void walls();
+  void rest();
+
+  Case const& c_;
+  std::vector<CaseProblem> found_;
+  std::vector<std::string> library_, material_;
+};
+
+void Checker::range(std::string const& key, double value, double low, bool low_allowed, double high,
+                    char const* reason) {
+  if (std::isfinite(value) && (low_allowed ? value >= low : value > low) && value <= high) return;
+  std::string const upper = std::isfinite(high) ? fmt::format(" and <= {}", high) : "";
+  fail(key,
+       fmt::format("{} is out of range: must be {} {}{} ({})", value, low_allowed ? ">=" : ">", low, upper, reason));
+}
+
+void Checker::finite(std::string const& key, Vec3 value) {
+  if (!is_finite(value)) fail(key, fmt::format("[{}, {}, {}] must be finite", value.x, value.y, value.z));
+}
+
+bool Checker::known(std::string const& key, std::string const& name, std::vector<std::string> const& names,
+                    char const* what) {
+  if (std::find(names.begin(), names.end(), name) != names.end()) return true;
+  std::string const have = names.empty() ? "none is defined" : fmt::format("defined: {}", fmt::join(names, ", "));
+  fail(key, fmt::format("unknown {} '{}'{}; {}", what, name, did_you_mean(name, names), have));
+  return false;
+}
+
+// Names of a list; empty and repeated ones are problems, and so are names that --set could not address.
+template <class T>
+std::vector<std::string> Checker::names(std::vector<T> const& list, std::string const& key) {
+  std::vector<std::string> out;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    std::string const at = fmt::format("{}.{}.name", key, i);
+    std::string const& name = list[i].name;
+    if (name.empty() || name.find_first_of(".=: \t\n") != std::string::npos)
+      fail(at, fmt::format("'{}' must be a word without blanks and . = :", name));
+    else if (std::find(out.begin(), out.end(), name) != out.end())
+      fail(at, fmt::format("'{}' is used twice: names must differ", name));
+    out.push_back(name);
+  }
+  return out;
+}
+
+void Checker::time() {
+  TimeCase const& t = c_.time;
+  positive("time.end", t.end, "simulated seconds");
+  if (t.step)
+    range("time.step", *t.step, 0, false, t.end > 0 ? t.end : infinity,
+          "seconds, at most time.end; \"auto\" chooses it");
+  range("time.safety", t.safety, 0, false, 1, "a share of the critical time step; beyond 1 the run is unstable");
+  if (!t.settle) return;
+  range("time.settle.damping", t.settle->damping, 0, true, infinity, "a rate in 1/s");
+  range("time.settle.after", t.settle->after, 0, true, t.end > 0 ? t.end : infinity, "seconds, at most time.end");
+  positive("time.settle.kinetic_per_grain", t.settle->kinetic_per_grain, "a kinetic energy in units of m g d");
+  range("time.settle.hold", t.settle->hold, 0, true, infinity, "seconds");
+}
+
+void Checker::materials() {
+  library_ = names(c_.library, "library");
+  material_ = names(c_.material, "material");
+  for (std::size_t i = 0; i < c_.material.size(); ++i)
+    positive(fmt::format("material.{}.density", i), c_.material[i].density, "a mass density in kg/m3");
+}
+
+void Checker::contacts() {
+  std::set<std::pair<std::string, std::string>> seen;
+  for (std::size_t i = 0; i < c_.contact.size(); ++i) {
+    ContactCase const& k = c_.contact[i];
+    std::string const at = fmt::format("contact.{}.", i);
+    known(at + "pair", k.pair.first, material_, "material");
+    if (k.pair.second != k.pair.first) known(at + "pair", k.pair.second, material_, "material");
+    if (!seen.insert(std::minmax(k.pair.first, k.pair.second)).second)
+      fail(at + "pair",
+           fmt::format("'{}' and '{}' have two [[contact]] entries: keep one", k.pair.first, k.pair.second));
+    if (k.kappa) positive(at + "normal.kappa", *k.kappa, "a pressure per overlap in N/m3");
+    if (!k.kappa) positive(at + "normal.stiffness", k.stiffness, "a secant stiffness in N/m");
+    range(at + "normal.at_overlap", k.at_overlap, 0, false, 0.1, "the overlap in d at which the stiffness holds");
+    range(at + "tangential_ratio", k.tangential_ratio, 0, false, 2, "k_t / k_n; elastic solids lie between 2/3 and 1");
+    if (k.friction)
+      range(at + "friction", *k.friction, 0, true, infinity, "a negative friction would drive the motion");
+    if (k.damping_ratio)
+      range(at + "damping.ratio", *k.damping_ratio, 0, true, 10,
+            "share of the critical damping; a negative one would add energy");
+    if (k.restitution)
+      range(at + "damping.restitution", *k.restitution, 0, false, 1,
+            "rebound speed over impact speed; above 1 energy would be made");
+    if (k.damping_ratio && k.restitution) fail(at + "damping", "give exactly one of ratio and restitution");
+  }
+}
+
+// Every two materials that can meet need a law: grains meet grains and walls, walls never meet walls.
+void Checker::touching_pairs() {
+  std::set<std::pair<std::string, std::string>> needed;
+  for (std::size_t i = 0; i < c_.grains.size(); ++i) {
+    GrainsCase const& a = c_.grains[i];
+    if (a.count > 1) needed.insert({a.material, a.material});
+    for (std::size_t j = i + 1; j < c_.grains.size(); ++j)
+      if (a.count > 0 && c_.grains[j].count > 0) needed.insert(std::minmax(a.material, c_.grains[j].material));
+    for (WallCase const& w : c_.wall)
+      if (a.count > 0) needed.insert(std::minmax(a.material, w.material));
+  }
+  for (ContactCase const& k : c_.contact) needed.erase(std::minmax(k.pair.first, k.pair.second));
+  for (auto const& [a, b] : needed) {
+    bool const defined =
+        std::count(material_.begin(), material_.end(), a) && std::count(material_.begin(), material_.end(), b);
+    if (defined)
+      fail("contact", fmt::format("'{}' and '{}' can touch and have no [[contact]] entry with pair = [\"{}\", \"{}\"]",
+                                  a, b, a, b));
+  }
+}
+
+// "kind:number:number..." of a built-in shape: how many numbers it takes; -1: no such built-in.
+int built_in_numbers(std::string const& kind) {
+  if (kind == "sphere") return 0;
+  if (kind == "ellipsoid" || kind == "box") return 3;
+  if (kind == "superellipsoid") return 4;
+  return -1;
+}
+
+std::vector<std::string> split_colons(std::string const& text) {
+  std::vector<std::string> parts(1);
+  for (char const ch : text) {
+    if (ch == ':')
+      parts.emplace_back();
+    else
+      parts.back() += ch;
+  }
+  return parts;
+}
+
+// "" when `parts` (kind, numbers) is a valid built-in shape, else what is wrong.
+std::string built_in_problem(std::vector<std::string> const& parts) {
+  int const wanted = built_in_numbers(parts[0]);
+  if (static_cast<int>(parts.size()) != wanted + 1)
+    return fmt::format("'{}' takes {} numbers after it, not {}", parts[0], wanted, parts.size() - 1);
+  for (std::size_t i = 1; i < parts.size(); ++i) {
+    double value = 0;
+    auto const [end, error] = std::from_chars(parts[i].data(), parts[i].data() + parts[i].size(), value);
+    bool const is_number = error == std::errc() && end == parts[i].data() + parts[i].size();
+    if (!is_number || !(value > 0) || !std::isfinite(value)) return fmt::format("'{}' must be a number > 0", parts[i]);
+    if (i == 4 && (value < 0.1 || value > 1.9)) return fmt::format("exponent {} must lie in 0.1 ... 1.9", parts[i]);
+  }
+  return "";
+}
+
+void Checker::shapes(std::string const& key, GrainsCase const& g) {
+  if (g.shapes.empty()) fail(key + ".shapes", "must name at least one shape, e.g. \"sphere\" or \"grains:ballast/*\"");
+  for (std::string const& shape : g.shapes) {
+    std::vector<std::string> const parts = split_colons(shape);
+    if (built_in_numbers(parts[0]) >= 0) {
+      std::string const problem = built_in_problem(parts);
+      if (!problem.empty()) fail(key + ".shapes", fmt::format("'{}': {}", shape, problem));
+    } else if (parts.size() == 2) {
+      known(key + ".shapes", parts[0], library_, "library");
+    } else {
+      std::vector<std::string> words{"sphere", "ellipsoid", "superellipsoid", "box"};
+      fail(key + ".shapes", fmt::format("unknown shape '{}'{}; write \"library:pattern\" or a built-in: sphere, "
+                                        "ellipsoid:a:b:c, superellipsoid:a:b:c:exponent, box:a:b:c",
+                                        shape, did_you_mean(parts[0], words)));
+    }
+  }
+}
+
+void Checker::insertion(std::string const& key, GrainsCase const& g) {
+  InsertCase const& insert = g.insert;
+  finite(key + ".insert.velocity", insert.velocity);
+  finite(key + ".insert.spin", insert.spin);
+  if (insert.kind == InsertCase::Kind::list) {
+    if (g.count != static_cast<int>(insert.position.size()))
+      fail(key + ".count",
+           fmt::format("{} differs from the {} positions of insert: leave count out", g.count, insert.position.size()));
+    if (!insert.quaternion.empty() && insert.quaternion.size() != insert.position.size())
+      fail(key + ".insert.quaternion", fmt::format("{} orientations for {} positions: give one each, or none",
+                                                   insert.quaternion.size(), insert.position.size()));
+    for (Vec3 const& x : insert.position) finite(key + ".insert.position", x);
+    for (Quat const& q : insert.quaternion) {
+      double const length = std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
+      if (!(std::abs(length - 1) <= 1e-3))
+        fail(key + ".insert.quaternion", fmt::format("has length {}, must be 1 (w, x, y, z)", length));
+    }
+    return;
+  }
+  Vec3 const size = insert.box.max - insert.box.min;
+  if (!(is_finite(size) && size.x > 0 && size.y > 0 && size.z > 0))
+    return fail(key + ".insert.box",
+                fmt::format("is {} x {} x {} m: the second corner must lie above the first on every axis", size.x,
+                            size.y, size.z));
+  // A cell is at least one equal-volume sphere wide; the real cell is known once the shapes are read.
+  auto const cells = [&](double length) {
+    return std::floor(length / g.diameter * (1 + 1e-9));
+  };  // an exact fit is a fit
+  double const places = cells(size.x) * cells(size.y) * cells(size.z);
+  if (g.diameter > 0 && g.count > places)
+    fail(key + ".insert.box",
+         fmt::format("holds at most {} grains of diameter {} m without overlap, not {}: enlarge it or insert fewer",
+                     places, g.diameter, g.count));
+}
+
+void Checker::grains() {
+  names(c_.grains, "grains");
+  for (std::size_t i = 0; i < c_.grains.size(); ++i) {
+    GrainsCase const& g = c_.grains[i];
+    std::string const at = fmt::format("grains.{}", i);
+    known(at + ".material", g.material, material_, "material");
+    shapes(at, g);
+    range(at + ".nodes", g.nodes, 32, true, 1e6, "surface nodes a grain; 4000 for angular grains, \"fast\" = 1000");
+    range(at + ".count", g.count, 0, true, 1e8, "number of grains");
+    positive(at + ".diameter", g.diameter, "diameter of the equal-volume sphere in m");
+    insertion(at, g);
+  }
+}
+
+void Checker::walls() {
+  std::vector<std::string> const faces{"-x", "+x", "-y", "+y", "-z", "+z"};
+  names(c_.wall, "wall");
+  for (std::size_t i = 0; i < c_.wall.size(); ++i) {
+    WallCase const& w = c_.wall[i];
+    std::string const at = fmt::format("wall.{}.", i);
+    known(at + "material", w.material, material_, "material");
+    if (w.kind == WallKind::plane) {
+      finite(at + "point", w.point);
+      if (!(is_finite(w.normal) && norm(w.normal) > 0))
+        fail(at + "normal", "must have a length: it points into the free space");
+      continue;
+    }
+    Vec3 const size = w.max - w.min;
+    if (!(is_finite(size) && size.x > 0 && size.y > 0 && size.z > 0))
+      fail(at + "max",
+           fmt::format("the box is {} x {} x {} m: max must exceed min on every axis", size.x, size.y, size.z));
+    for (std::string const& face : w.open) known(at + "open", face, faces, "face");
+  }
+}
+
+void Checker::rest() {
+  if (c_.gravity) finite("gravity.acceleration", *c_.gravity);
+  positive("output.every", c_.output.every, "seconds between frames");
+  if (c_.checkpoint) {
+    positive("checkpoint.every", c_.checkpoint->every, "seconds between checkpoints");
+    range("checkpoint.keep", c_.checkpoint->keep, 1, true, 1000, "checkpoints kept");
+  }
+  LimitsCase const& l = c_.limits;
+  range("limits.overlap", l.overlap, 0, false, 0.5, "d; the watch stops the run above it");
+  bool const ordered =
+      l.gradient_low > 0 && l.gradient_low < 1 && l.gradient_high > 1 && std::isfinite(l.gradient_high);
+  if (!ordered)
+    fail("limits.gradient", fmt::format("[{}, {}] must enclose 1 and be > 0: |grad phi| of a true distance is 1",
+                                        l.gradient_low, l.gradient_high));
+  positive("limits.ledger", l.ledger, "a share of the energy moved");
+}
+
+std::vector<CaseProblem> Checker::run() {
+  time();
+  materials();
+  contacts();
+  grains();
+  walls();
+  touching_pairs();
+  rest();
+  return std::move(found_);
+}
+
+template <class T>
+std::string name_at(std::vector<T> const& list, std::size_t index) {
+  if (index >= list.size()) return "";
+  std::string const& name = list[index].name;
+  auto const same = std::count_if(list.begin(), list.end(), [&](T const& e) { return e.name == name; });
+  return same == 1 ? name : "";  // a repeated name points nowhere
+}
+
+}  // namespace
+
+std::vector<CaseProblem> check_case(Case const& c) { return Checker(c).run(); }
+
+std::string key_by_name(Case const& c, std::string const& key) {
+  std::size_t const first = key.find('.');
+  if (first == std::string::npos) return key;
+  std::size_t const second = std::min(key.find('.', first + 1), key.size());
+  std::string const list = key.substr(0, first);
+  std::size_t index = 0;
+  auto const [end, error] = std::from_chars(key.data() + first + 1, key.data() + second, index);
+  if (error != std::errc() || end != key.data() + second) return key;
+  std::string name;
+  if (list == "library") name = name_at(c.library, index);
+  if (list == "material") name = name_at(c.material, index);
+  if (list == "grains") name = name_at(c.grains, index);
+  if (list == "wall") name = name_at(c.wall, index);
+  return name.empty() ? key : list + "." + name + key.substr(second);
+}
+
+std::vector<std::string> problems(Case const& c) {
+  std::vector<std::string> lines;
+  for (CaseProblem const& p : check_case(c)) lines.push_back(key_by_name(c, p.key) + ": " + p.text);
+  return lines;
+}
+
+}  // namespace scree

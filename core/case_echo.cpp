@@ -1,0 +1,122 @@
+// case_echo.cpp: the effective case as TOML text, every default written out.
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/case.h"
+
+namespace scree {
+namespace {
+
+// A TOML basic string.
+std::string quoted(std::string const& text) {
+  std::string out = "\"";
+  for (char const c : text) {
+    if (c == '"' || c == '\\')
+      out += fmt::format("\\{}", c);
+    else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
+      out += fmt::format("\\u{:04X}", static_cast<unsigned char>(c));
+    else
+      out += c;
+  }
+  return out + "\"";
+}
+
+std::string list(std::vector<std::string> const& items) { return fmt::format("[{}]", fmt::join(items, ", ")); }
+
+std::string quoted_list(std::vector<std::string> const& items) {
+  std::vector<std::string> out;
+  for (std::string const& item : items) out.push_back(quoted(item));
+  return list(out);
+}
+
+// fmt's shortest round-trip digits: reading them back gives the same double.
+std::string vector(Vec3 v) { return fmt::format("[{}, {}, {}]", v.x, v.y, v.z); }
+
+std::string vectors(std::vector<Vec3> const& vs) {
+  std::vector<std::string> out;
+  for (Vec3 const& v : vs) out.push_back(vector(v));
+  return list(out);
+}
+
+std::string quaternions(std::vector<Quat> const& qs) {
+  std::vector<std::string> out;
+  for (Quat const& q : qs) out.push_back(fmt::format("[{}, {}, {}, {}]", q.w, q.x, q.y, q.z));
+  return list(out);
+}
+
+char const* to_string(Orientation o) { return o == Orientation::random ? "random" : "aligned"; }
+char const* to_string(Evaluator e) { return e == Evaluator::net ? "net" : "analytic"; }
+
+void write_time(std::string& out, TimeCase const& t) {
+  out += fmt::format("\n[time]\nend = {}  # [s]\n", t.end);
+  out += t.step ? fmt::format("step = {}  # [s]\n", *t.step) : "step = \"auto\"\n";
+  out += fmt::format("safety = {}\n", t.safety);
+  if (t.settle)
+    out += fmt::format(
+        "settle = {{ damping = {}, after = {}, kinetic_per_grain = {}, hold = {} }}  # [1/s], [s], [m g d], [s]\n",
+        t.settle->damping, t.settle->after, t.settle->kinetic_per_grain, t.settle->hold);
+}
+
+void write_contact(std::string& out, ContactCase const& c) {
+  out +=
+      fmt::format("\n[[contact]]\npair = [{}, {}]\nlaw = \"winkler\"\n", quoted(c.pair.first), quoted(c.pair.second));
+  out += c.kappa
+             ? fmt::format("normal = {{ kappa = {} }}  # [N/m3]\n", *c.kappa)
+             : fmt::format("normal = {{ stiffness = {}, at_overlap = {} }}  # [N/m], [d]\n", c.stiffness, c.at_overlap);
+  out += fmt::format("tangential_ratio = {}\n", c.tangential_ratio);
+  if (c.friction) out += fmt::format("friction = {}\n", *c.friction);
+  if (c.damping_ratio) out += fmt::format("damping = {{ ratio = {} }}\n", *c.damping_ratio);
+  if (c.restitution) out += fmt::format("damping = {{ restitution = {} }}\n", *c.restitution);
+}
+
+void write_grains(std::string& out, GrainsCase const& g) {
+  out += fmt::format("\n[[grains]]\nname = {}\nmaterial = {}\nshapes = {}\nevaluator = \"{}\"\n", quoted(g.name),
+                     quoted(g.material), quoted_list(g.shapes), to_string(g.evaluator));
+  out += fmt::format("nodes = {}\ncount = {}\ndiameter = {}  # [m]\n", g.nodes, g.count, g.diameter);
+  InsertCase const& i = g.insert;
+  std::string const moving =
+      fmt::format("velocity = {}, spin = {}", vector(i.velocity), vector(i.spin));  // [m/s], [rad/s]
+  if (i.kind == InsertCase::Kind::lattice)
+    out += fmt::format("insert = {{ kind = \"lattice\", box = {}, orientation = \"{}\", {} }}\n",
+                       vectors({i.box.min, i.box.max}), to_string(i.orientation), moving);
+  else if (i.quaternion.empty())
+    out += fmt::format("insert = {{ kind = \"list\", position = {}, orientation = \"{}\", {} }}\n", vectors(i.position),
+                       to_string(i.orientation), moving);
+  else
+    out += fmt::format("insert = {{ kind = \"list\", position = {}, quaternion = {}, {} }}\n", vectors(i.position),
+                       quaternions(i.quaternion), moving);
+}
+
+void write_wall(std::string& out, WallCase const& w) {
+  out += fmt::format("\n[[wall]]\nname = {}\nmaterial = {}\n", quoted(w.name), quoted(w.material));
+  if (w.kind == WallKind::plane)
+    out += fmt::format("kind = \"plane\"\npoint = {}\nnormal = {}\n", vector(w.point), vector(w.normal));
+  else
+    out += fmt::format("kind = \"box\"\nside = \"inside\"\nmin = {}\nmax = {}\nopen = {}\n", vector(w.min),
+                       vector(w.max), quoted_list(w.open));
+}
+
+}  // namespace
+
+std::string to_toml(Case const& c) {
+  std::string out = fmt::format("[case]\nname = {}\nseed = {}\n", quoted(c.name), c.seed);
+  write_time(out, c.time);
+  if (c.gravity) out += fmt::format("\n[gravity]\nacceleration = {}  # [m/s2]\n", vector(*c.gravity));
+  for (LibraryCase const& l : c.library)
+    out += fmt::format("\n[[library]]\nname = {}\nfile = {}\n", quoted(l.name),
+                       quoted(std::filesystem::absolute(l.file).string()));
+  for (MaterialCase const& m : c.material)
+    out += fmt::format("\n[[material]]\nname = {}\ndensity = {}  # [kg/m3]\n", quoted(m.name), m.density);
+  for (ContactCase const& k : c.contact) write_contact(out, k);
+  for (GrainsCase const& g : c.grains) write_grains(out, g);
+  for (WallCase const& w : c.wall) write_wall(out, w);
+  out += fmt::format("\n[output]\nevery = {}  # [s]\nparaview = {}\n", c.output.every, c.output.paraview);
+  if (c.checkpoint)
+    out += fmt::format("\n[checkpoint]\nevery = {}  # [s]\nkeep = {}\n", c.checkpoint->every, c.checkpoint->keep);
+  out += fmt::format("\n[limits]\noverlap = {}  # [d]\ngradient = [{}, {}]\nledger = {}\n", c.limits.overlap,
+                     c.limits.gradient_low, c.limits.gradient_high, c.limits.ledger);
+  return out;
+}
+
+}  // namespace scree

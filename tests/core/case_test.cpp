@@ -1,0 +1,389 @@
+// case_test.cpp: the case file: what it means, what it refuses and with which words.
+// SPDX-License-Identifier: Apache-2.0
+#include "core/case.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+
+namespace {
+
+using namespace scree;
+namespace fs = std::filesystem;
+
+char const* const minimal = R"([case]
+name = "drop"
+[time]
+end = 1.5
+[gravity]
+acceleration = [0, 0, -9.81]
+[[material]]
+name = "rock"
+density = 2650
+[[contact]]
+pair = ["rock", "rock"]
+normal = { stiffness = 2e6, at_overlap = 0.01 }
+friction = 0.5
+damping = { ratio = 0.7 }
+[[grains]]
+name = "mix"
+material = "rock"
+shapes = ["sphere"]
+count = 5
+diameter = 0.1
+insert = { kind = "lattice", box = [[0, 0, 0], [1, 1, 4]] }
+[[wall]]
+name = "floor"
+kind = "plane"
+point = [0, 0, 0]
+normal = [0, 0, 1]
+material = "rock"
+)";
+
+class CaseFile : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::temp_directory_path() / ("scree_case_test_" + std::to_string(::getpid()));
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  fs::path write(std::string const& text, std::string const& name = "case.toml") {
+    std::ofstream(folder_ / name, std::ios::binary) << text;
+    return folder_ / name;
+  }
+  Case load(std::string const& text, std::vector<std::string> const& overrides = {}) {
+    return load_case(write(text), overrides);
+  }
+  // The problems of `text`, without the folder's name.
+  std::vector<std::string> refused(std::string const& text, std::vector<std::string> const& overrides = {}) {
+    try {
+      load(text, overrides);
+    } catch (InputError const& error) {
+      std::vector<std::string> lines = error.problems;
+      std::string const prefix = folder_.string() + "/";
+      for (std::string& line : lines)
+        if (line.starts_with(prefix)) line = line.substr(prefix.size());
+      return lines;
+    }
+    return {};
+  }
+  // Expects exactly one problem that contains every one of `parts`.
+  void expect_one(std::vector<std::string> const& problems, std::vector<std::string> const& parts) {
+    ASSERT_EQ(problems.size(), 1u) << testing::PrintToString(problems);
+    for (std::string const& part : parts)
+      EXPECT_NE(problems[0].find(part), std::string::npos) << problems[0] << "\nlacks: " << part;
+  }
+
+  fs::path folder_;
+};
+
+// `text` with the first `from` replaced by `to`.
+std::string with(std::string text, std::string const& from, std::string const& to) {
+  std::size_t const at = text.find(from);
+  if (at == std::string::npos) throw std::logic_error("test text lacks: " + from);
+  return text.replace(at, from.size(), to);
+}
+
+TEST_F(CaseFile, MinimalCaseMeansWhatItSays) {
+  Case const c = load(minimal);
+  EXPECT_EQ(c.name, "drop");
+  EXPECT_EQ(c.time.end, 1.5);
+  EXPECT_FALSE(c.time.step.has_value());
+  EXPECT_FALSE(c.time.settle.has_value());
+  EXPECT_EQ(*c.gravity, (Vec3{0, 0, -9.81}));
+  EXPECT_EQ(c.contact.at(0).stiffness, 2e6);
+  EXPECT_FALSE(c.contact[0].kappa.has_value());
+  EXPECT_EQ(*c.contact[0].friction, 0.5);
+  EXPECT_EQ(*c.contact[0].damping_ratio, 0.7);
+  EXPECT_EQ(c.grains.at(0).count, 5);
+  EXPECT_EQ(c.grains[0].nodes, 4000);
+  EXPECT_EQ(c.grains[0].insert.box.max, (Vec3{1, 1, 4}));
+  EXPECT_EQ(c.wall.at(0).kind, WallKind::plane);
+  EXPECT_FALSE(c.checkpoint.has_value());
+}
+
+TEST_F(CaseFile, AbsentKeysAreAbsentEffects) {
+  std::string text = with(minimal, "[gravity]\nacceleration = [0, 0, -9.81]\n", "");
+  text = with(text, "friction = 0.5\ndamping = { ratio = 0.7 }\n", "");
+  Case const c = load(text);
+  EXPECT_FALSE(c.gravity.has_value());
+  EXPECT_FALSE(c.contact.at(0).friction.has_value());
+  EXPECT_FALSE(c.contact[0].damping_ratio.has_value());
+  EXPECT_FALSE(c.contact[0].restitution.has_value());
+}
+
+TEST_F(CaseFile, FastNodesAndExplicitStep) {
+  Case const c =
+      load(with(with(minimal, "count = 5", "count = 5\nnodes = \"fast\""), "end = 1.5", "end = 1.5\nstep = 1e-5"));
+  EXPECT_EQ(c.grains.at(0).nodes, 1000);
+  EXPECT_EQ(*c.time.step, 1e-5);
+}
+
+TEST_F(CaseFile, ListInsertionCountsItself) {
+  Case const c = load(with(with(minimal, "kind = \"lattice\", box = [[0, 0, 0], [1, 1, 4]]",
+                                "kind = \"list\", position = [[0, 0, 1], [0, 0, 2.5]], quaternion = [[1, 0, 0, 0], [0, "
+                                "1, 0, 0]], spin = [0, 0, 3]"),
+                           "count = 5\n", ""));
+  EXPECT_EQ(c.grains.at(0).count, 2);
+  EXPECT_EQ(c.grains[0].insert.position.at(1), (Vec3{0, 0, 2.5}));
+  EXPECT_EQ(c.grains[0].insert.quaternion.at(1), (Quat{0, 1, 0, 0}));
+  EXPECT_EQ(c.grains[0].insert.spin, (Vec3{0, 0, 3}));
+}
+
+TEST_F(CaseFile, MissingFileIsNamed) {
+  try {
+    load_case(folder_ / "absent.toml", {});
+    FAIL() << "a missing file was accepted";
+  } catch (InputError const& error) {
+    EXPECT_NE(std::string(error.what()).find("absent.toml: no such case file"), std::string::npos);
+  }
+}
+
+TEST_F(CaseFile, SyntaxErrorComesAloneWithLineAndColumn) {
+  // Line 2 is damaged; the unknown key after it must not be mentioned.
+  expect_one(refused("[case]\nname = \"a\nfriktion = 1\n"), {"case.toml:2:", "TOML syntax"});
+}
+
+TEST_F(CaseFile, UnknownKeyNamesLineAndNearest) {
+  expect_one(refused(with(minimal, "friction = 0.5", "frction = 0.5")),
+             {"case.toml:13: contact.0.frction: is an unknown key", "did you mean 'friction'?", "tangential_ratio"});
+  expect_one(refused(with(minimal, "[gravity]", "[gravty]")), {"case.toml:5: gravty: is an unknown key", "'gravity'"});
+}
+
+TEST_F(CaseFile, WrongTypesAreNamed) {
+  expect_one(refused(with(minimal, "density = 2650", "density = \"heavy\"")),
+             {"case.toml:9: material.rock.density: must be a number, not a string"});
+  expect_one(refused(with(minimal, "count = 5", "count = 5.5")), {"grains.mix.count: must be a whole number"});
+  expect_one(refused(with(minimal, "point = [0, 0, 0]", "point = [0, 0]")),
+             {"wall.floor.point", "three numbers", "2 values"});
+  expect_one(refused(with(minimal, "[[wall]]", "[wall]")), {"wall: must be a list of tables, written [[wall]]"});
+}
+
+TEST_F(CaseFile, MissingKeysAreNamed) {
+  expect_one(refused(with(minimal, "density = 2650\n", "")), {"case.toml:7: material.rock.density: is missing"});
+  expect_one(refused(with(minimal, "normal = { stiffness = 2e6, at_overlap = 0.01 }\n", "")),
+             {"contact.0.normal: is missing"});
+}
+
+TEST_F(CaseFile, PhysicalRangesHaveReasons) {
+  expect_one(refused(with(minimal, "density = 2650", "density = -2650")),
+             {"case.toml:9: material.rock.density: -2650 is out of range: must be > 0", "kg/m3"});
+  expect_one(refused(with(minimal, "friction = 0.5", "friction = -0.1")),
+             {"contact.0.friction: -0.1", "must be >= 0", "drive the motion"});
+  expect_one(refused(with(minimal, "ratio = 0.7", "restitution = 1.2")),
+             {"restitution: 1.2", "<= 1", "energy would be made"});
+  expect_one(refused(with(minimal, "end = 1.5", "end = 1.5\nsafety = 1.5")), {"time.safety: 1.5", "unstable"});
+  expect_one(refused(with(minimal, "end = 1.5", "end = 1.5\nstep = 0")), {"time.step: 0", "must be > 0"});
+  expect_one(refused(with(minimal, "diameter = 0.1", "diameter = nan")), {"grains.mix.diameter: nan"});
+  expect_one(refused(with(minimal, "count = 5", "count = -1")), {"grains.mix.count: -1"});
+  expect_one(refused(with(minimal, "normal = [0, 0, 1]", "normal = [0, 0, 0]")), {"wall.floor.normal", "free space"});
+}
+
+TEST_F(CaseFile, ExclusiveKeys) {
+  expect_one(refused(with(minimal, "{ ratio = 0.7 }", "{ ratio = 0.7, restitution = 0.5 }")),
+             {"exactly one of ratio and restitution"});
+  expect_one(refused(with(minimal, "{ ratio = 0.7 }", "{}")), {"exactly one of ratio and restitution"});
+  expect_one(refused(with(minimal, "{ stiffness = 2e6,", "{ kappa = 2.5e10,")), {"either kappa", "not both"});
+}
+
+TEST_F(CaseFile, InsertionThatCannotFitIsRefused) {
+  // floor(1/0.1) = 10 cells a side (as floating point has it), 40 layers: 4,000 places.
+  expect_one(refused(with(minimal, "count = 5", "count = 5000")), {"grains.mix.insert.box", "not 5000"});
+  expect_one(refused(with(minimal, "[1, 1, 4]", "[1, 1, 0]")), {"insert.box", "above the first"});
+}
+
+TEST_F(CaseFile, UnknownNamesOfferTheNearest) {
+  expect_one(refused(with(minimal, "kind = \"plane\"", "kind = \"plain\"")),
+             {"'plain' is unknown", "did you mean 'plane'?"});
+  expect_one(refused(with(minimal, "[0, 0, 1]\nmaterial = \"rock\"", "[0, 0, 1]\nmaterial = \"rocc\"")),
+             {"wall.floor.material: unknown material 'rocc'", "did you mean 'rock'?", "defined: rock"});
+  expect_one(refused(with(minimal, "shapes = [\"sphere\"]", "shapes = [\"grians:ballast/*\"]")),
+             {"unknown library 'grians'"});
+  expect_one(refused(with(minimal, "shapes = [\"sphere\"]", "shapes = [\"spere\"]")),
+             {"unknown shape 'spere'", "'sphere'"});
+}
+
+TEST_F(CaseFile, BuiltInShapesAreChecked) {
+  expect_one(refused(with(minimal, "\"sphere\"", "\"ellipsoid:1:0.8\"")), {"takes 3 numbers after it, not 2"});
+  expect_one(refused(with(minimal, "\"sphere\"", "\"box:1:x:1\"")), {"'x' must be a number > 0"});
+  expect_one(refused(with(minimal, "\"sphere\"", "\"superellipsoid:1:1:1:2.5\"")),
+             {"exponent 2.5 must lie in 0.1 ... 1.9"});
+  EXPECT_EQ(
+      load(with(minimal, "\"sphere\"", "\"superellipsoid:1:0.8:0.6:0.5\", \"box:1:1:2\"")).grains.at(0).shapes.size(),
+      2u);
+}
+
+TEST_F(CaseFile, UnsupportedKeysAreRefusedByName) {
+  expect_one(refused(with(minimal, "point = [0, 0, 0]", "point = [0, 0, 0]\nmotion = { kind = \"rotation\" }")),
+             {"case.toml:26: wall.floor.motion: is not supported in this version", "supported here:"});
+  expect_one(refused(with(minimal, "kind = \"plane\"", "kind = \"cylinder\"")),
+             {"wall.floor.kind: 'cylinder' is not supported in this version; supported: plane, box"});
+  expect_one(refused(with(minimal, "friction = 0.5", "friction = 0.5\nlaw = \"hertz\"")),
+             {"'hertz' is not supported in this version; supported: winkler"});
+  expect_one(refused(with(minimal, "count = 5", "count = 5\nsample = { library = \"grains\" }")),
+             {"sample: is not supported"});
+  expect_one(refused(with(minimal, "name = \"drop\"", "name = \"drop\"\nreplicas = 3")),
+             {"case.replicas: is not supported"});
+}
+
+TEST_F(CaseFile, TouchingMaterialsNeedALaw) {
+  std::string const text = with(minimal, "[[contact]]", "[[material]]\nname = \"steel\"\ndensity = 7800\n[[contact]]");
+  expect_one(refused(with(text, "normal = [0, 0, 1]\nmaterial = \"rock\"", "normal = [0, 0, 1]\nmaterial = \"steel\"")),
+             {"'rock' and 'steel' can touch", "[[contact]]"});
+  EXPECT_TRUE(refused(text).empty());  // a material that nothing uses needs none
+}
+
+TEST_F(CaseFile, AllProblemsComeAtOnceInFileOrder) {
+  std::string text = with(minimal, "density = 2650", "density = -1");
+  text = with(text, "friction = 0.5", "frction = 0.5");
+  text = with(text, "count = 5", "count = \"many\"");
+  std::vector<std::string> const problems = refused(text);
+  ASSERT_EQ(problems.size(), 3u) << testing::PrintToString(problems);
+  EXPECT_NE(problems[0].find("density"), std::string::npos);
+  EXPECT_NE(problems[1].find("frction"), std::string::npos);
+  EXPECT_NE(problems[2].find("count"), std::string::npos);
+}
+
+TEST_F(CaseFile, OverridesByIndexNameAndNewTable) {
+  Case const c =
+      load(minimal, {"grains.mix.count=7", "grains.0.diameter=0.2", "time.settle.after=0.8",
+                     "gravity=", "grains.mix.shapes=[\"box:1:1:1\"]", "wall.floor.name=ground", "contact.0.friction="});
+  EXPECT_EQ(c.grains.at(0).count, 7);
+  EXPECT_EQ(c.grains[0].diameter, 0.2);
+  EXPECT_EQ(c.grains[0].shapes, std::vector<std::string>{"box:1:1:1"});
+  EXPECT_EQ(c.time.settle->after, 0.8);
+  EXPECT_EQ(c.time.settle->damping, SettleCase{}.damping);
+  EXPECT_FALSE(c.gravity.has_value());
+  EXPECT_FALSE(c.contact.at(0).friction.has_value());
+  EXPECT_EQ(c.wall.at(0).name, "ground");  // a bare word is a string
+}
+
+TEST_F(CaseFile, OverridesAreReportedAsSuch) {
+  expect_one(refused(minimal, {"grains.mix.diameter=-1"}), {"--set: grains.mix.diameter: -1 is out of range"});
+  expect_one(refused(minimal, {"time.ennd=2"}), {"--set: time.ennd: is an unknown key", "'end'"});
+  expect_one(refused(minimal, {"grains.mxi.count=2"}),
+             {"--set grains.mxi.count=2", "no entry 'mxi'", "did you mean 'mix'?"});
+  expect_one(refused(minimal, {"time.end"}), {"--set time.end", "key=value"});
+  expect_one(refused(minimal, {"time.end.x=3"}), {"--set time.end.x=3: 'time.end' is a number"});
+}
+
+TEST_F(CaseFile, LibrariesAreFoundNextToTheCaseThenInTheEnvironmentThenInShare) {
+  std::string const text = std::string(minimal) + "[[library]]\nname = \"grains\"\nfile = \"lib/grains.h5\"\n";
+  expect_one(refused(text), {"library.grains.file: 'lib/grains.h5' was not found; tried"});
+  fs::create_directories(folder_ / "share");
+  std::ofstream(folder_ / "share" / "grains.h5") << "x";
+  fs::path const file = write(text);
+  EXPECT_EQ(load_case(file, {}, folder_ / "share").library.at(0).file, fs::canonical(folder_ / "share/grains.h5"));
+  fs::create_directories(folder_ / "env/lib");
+  std::ofstream(folder_ / "env/lib/grains.h5") << "x";
+  ASSERT_EQ(::setenv("SCREE_LIBRARY", (folder_ / "env").c_str(), 1), 0);
+  EXPECT_EQ(load_case(file, {}, folder_ / "share").library.at(0).file, fs::canonical(folder_ / "env/lib/grains.h5"));
+  fs::create_directories(folder_ / "lib");
+  std::ofstream(folder_ / "lib/grains.h5") << "x";
+  EXPECT_EQ(load_case(file, {}, folder_ / "share").library.at(0).file, fs::canonical(folder_ / "lib/grains.h5"));
+  ::unsetenv("SCREE_LIBRARY");
+}
+
+// No member may be lost on the way through text: every one differs from its default here.
+Case unusual_case(fs::path const& library) {
+  Case c;
+  c.name = "odd \"name\" \\ \x01";
+  c.seed = 77;
+  c.time = {1.0 / 3, 0.1 + 0.02, 0.25, SettleCase{4.5, 0.01, 3e-9, 0.07}};
+  c.gravity = Vec3{1e-300, -0.5, 9.81};
+  c.library = {{"grains", library}};
+  c.material = {{"rock", 2650.5}, {"steel", 7.8e3}};
+  c.contact.resize(3);
+  c.contact[0] = {{"rock", "rock"}, ContactLaw::winkler, {}, 3e6, 0.02, 0.75, 0.4, 0.6, {}};
+  c.contact[1] = {{"rock", "steel"}, ContactLaw::winkler, 2.5e10, 2e6, 0.01, 0.5, {}, {}, 0.5};
+  c.contact[2] = {{"steel", "steel"}, ContactLaw::winkler, 1e20, 2e6, 0.01, 0.5, {}, {}, {}};
+  c.grains.resize(3);
+  c.grains[0] = {"mix", "rock", {"grains:ballast/*", "sphere"}, Evaluator::analytic, 123, 4, 0.05, {}};
+  c.grains[0].insert = {
+      InsertCase::Kind::lattice, {{0, 0.1, 0.2}, {1, 2, 3}}, Orientation::aligned, {1, 2, 3}, {4, 5, 6}, {}, {}};
+  c.grains[1] = {"two", "steel", {"sphere"}, Evaluator::net, 1000, 2, 0.1, {}};
+  c.grains[1].insert = {InsertCase::Kind::list,          {}, Orientation::random, {}, {}, {{0.1, 0, 0}, {2, 3, 4}},
+                        {{0.6, 0.8, 0, 0}, {0, 0, 0, 1}}};
+  c.grains[2] = {"three", "steel", {"sphere"}, Evaluator::net, 1000, 1, 0.1, {}};
+  c.grains[2].insert = {InsertCase::Kind::list, {}, Orientation::aligned, {}, {}, {{9, 9, 9}}, {}};
+  c.wall = {{"floor", "steel", WallKind::plane, {1, 2, 3}, {0, 0.6, 0.8}, {}, {}, {}},
+            {"bin", "rock", WallKind::box, {}, {0, 0, 1}, {-1, -2, -3}, {1, 2, 3}, {"+z", "-x"}}};
+  c.output = {0.125, true};
+  c.checkpoint = CheckpointCase{0.75, 5};
+  c.limits = {0.03, 0.6, 1.9, 2e-3};
+  return c;
+}
+
+void expect_same(InsertCase const& a, InsertCase const& b) {
+  EXPECT_EQ(a.kind, b.kind);
+  EXPECT_EQ(a.box.min, b.box.min);
+  EXPECT_EQ(a.box.max, b.box.max);
+  EXPECT_EQ(a.orientation, b.orientation);
+  EXPECT_EQ(a.velocity, b.velocity);
+  EXPECT_EQ(a.spin, b.spin);
+  EXPECT_EQ(a.position, b.position);
+  EXPECT_EQ(a.quaternion, b.quaternion);
+}
+
+void expect_same(GrainsCase const& a, GrainsCase const& b) {
+  EXPECT_EQ(std::tie(a.name, a.material, a.shapes, a.evaluator, a.nodes, a.count, a.diameter),
+            std::tie(b.name, b.material, b.shapes, b.evaluator, b.nodes, b.count, b.diameter));
+  expect_same(a.insert, b.insert);
+}
+
+void expect_same(ContactCase const& a, ContactCase const& b) {
+  EXPECT_EQ(std::tie(a.pair, a.law, a.kappa, a.tangential_ratio, a.friction, a.damping_ratio, a.restitution),
+            std::tie(b.pair, b.law, b.kappa, b.tangential_ratio, b.friction, b.damping_ratio, b.restitution));
+  if (a.kappa) return;  // stiffness is unused beside kappa
+  EXPECT_EQ(std::tie(a.stiffness, a.at_overlap), std::tie(b.stiffness, b.at_overlap));
+}
+
+void expect_same(WallCase const& a, WallCase const& b) {
+  EXPECT_EQ(std::tie(a.name, a.material, a.kind, a.open), std::tie(b.name, b.material, b.kind, b.open));
+  EXPECT_EQ(a.point, b.point);
+  EXPECT_EQ(a.normal, b.normal);
+  EXPECT_EQ(a.min, b.min);
+  EXPECT_EQ(a.max, b.max);
+}
+
+template <class T>
+void expect_same(std::vector<T> const& a, std::vector<T> const& b) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) expect_same(a[i], b[i]);
+}
+
+TEST_F(CaseFile, EchoLoadsBackToTheSameCase) {
+  fs::path const library = write("x", "grains.h5");
+  Case const a = unusual_case(fs::canonical(library));
+  ASSERT_TRUE(problems(a).empty()) << testing::PrintToString(problems(a));
+  Case const b = load(to_toml(a));
+  EXPECT_EQ(std::tie(a.name, a.seed), std::tie(b.name, b.seed));
+  EXPECT_EQ(std::tie(a.time.end, a.time.step, a.time.safety), std::tie(b.time.end, b.time.step, b.time.safety));
+  EXPECT_EQ(
+      std::tie(a.time.settle->damping, a.time.settle->after, a.time.settle->kinetic_per_grain, a.time.settle->hold),
+      std::tie(b.time.settle->damping, b.time.settle->after, b.time.settle->kinetic_per_grain, b.time.settle->hold));
+  EXPECT_EQ(*a.gravity, *b.gravity);
+  EXPECT_EQ(std::tie(a.library.at(0).name, a.library[0].file), std::tie(b.library.at(0).name, b.library[0].file));
+  ASSERT_EQ(b.material.size(), 2u);
+  EXPECT_EQ(std::tie(a.material[1].name, a.material[1].density), std::tie(b.material[1].name, b.material[1].density));
+  expect_same(a.contact, b.contact);
+  expect_same(a.grains, b.grains);
+  expect_same(a.wall, b.wall);
+  EXPECT_EQ(std::tie(a.output.every, a.output.paraview), std::tie(b.output.every, b.output.paraview));
+  EXPECT_EQ(std::tie(a.checkpoint->every, a.checkpoint->keep), std::tie(b.checkpoint->every, b.checkpoint->keep));
+  EXPECT_EQ(std::tie(a.limits.overlap, a.limits.gradient_low, a.limits.gradient_high, a.limits.ledger),
+            std::tie(b.limits.overlap, b.limits.gradient_low, b.limits.gradient_high, b.limits.ledger));
+  EXPECT_EQ(to_toml(a), to_toml(b));
+}
+
+TEST(CaseProblems, ApiUsersGetTheSameWords) {
+  Case c;
+  c.material = {{"rock", -1}};
+  std::vector<std::string> const found = problems(c);
+  ASSERT_EQ(found.size(), 1u) << testing::PrintToString(found);
+  EXPECT_NE(found[0].find("material.rock.density: -1 is out of range"), std::string::npos);
+}
+
+}  // namespace
