@@ -1,0 +1,84 @@
+// body_reduce.cpp: pair results to body wrenches in a fixed order, and the critical time step. See contact_reduce.h.
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <limits>
+
+#include "kernels/base/parallel.h"
+#include "kernels/contact_reduce.h"
+
+namespace scree {
+namespace {
+
+struct ReduceBody {
+  SceneView scene;
+  Span<const PairResult> result;
+  Span<const int> first, entry;
+  Span<Wrench> elastic, damping, friction;
+  Span<double> stiffness;
+
+  SCREE_HD static Wrench share(PairWrench const& w, bool as_a) {
+    return as_a ? Wrench{w.force_on_a, w.torque_a} : Wrench{-w.force_on_a, w.torque_b};
+  }
+
+  SCREE_HD void operator()(int i) const {
+    Wrench e, d, f;
+    double s = 0;
+    Vec3 const inertia = scene.inertia[i];
+    double least = inertia.x < inertia.y ? inertia.x : inertia.y;
+    least = inertia.z < least ? inertia.z : least;
+    for (int k = first[i]; k < first[i + 1]; ++k) {
+      PairResult const& r = result[entry[k] / 2];
+      if (r.active == 0) continue;
+      bool const as_a = entry[k] % 2 == 0;
+      e += share(r.elastic, as_a);
+      d += share(r.damping, as_a);
+      f += share(r.friction, as_a);
+      s += r.stiffness * (1 / scene.mass[i] + (as_a ? r.arm2_a : r.arm2_b) / least);
+    }
+    elastic[i] = e, damping[i] = d, friction[i] = f, stiffness[i] = s;
+  }
+};
+
+}  // namespace
+
+void assign_pairs_to_bodies(int bodies, Span<const Pair> pair, PairsOfBodies& pairs) {
+  pairs.first.assign(bodies + 1, 0);
+  for (Pair const& p : pair) {
+    ++pairs.first[p.a + 1];
+    if (!p.with_plane()) ++pairs.first[p.b + 1];
+  }
+  for (int i = 0; i < bodies; ++i) pairs.first[i + 1] += pairs.first[i];
+  pairs.entry.resize(pairs.first[bodies]);
+  std::vector<int> at(pairs.first.begin(), pairs.first.end() - 1);
+  for (int k = 0; k < pair.size(); ++k) {
+    pairs.entry[at[pair[k].a]++] = 2 * k;
+    if (!pair[k].with_plane()) pairs.entry[at[pair[k].b]++] = 2 * k + 1;
+  }
+}
+
+void reduce_to_bodies(Queue const& queue, SceneView const& scene, Span<const PairResult> result,
+                      PairsOfBodies const& pairs, BodyWrenches& bodies) {
+  int const n = scene.bodies();
+  bodies.elastic.resize(n);
+  bodies.damping.resize(n);
+  bodies.friction.resize(n);
+  bodies.stiffness.resize(n);
+  parallel_for(queue, "integrate/wrenches", n,
+               ReduceBody{scene, result, pairs.first, pairs.entry, bodies.elastic, bodies.damping, bodies.friction,
+                          bodies.stiffness},
+               128);
+}
+
+double critical_time_step(SceneView const&, Span<const Pair> pair, Span<const PairResult> result,
+                          Span<const double> stiffness) {
+  double least = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < pair.size(); ++k) {
+    if (result[k].active == 0) continue;
+    double const omega2 = stiffness[pair[k].a] + (pair[k].with_plane() ? 0 : stiffness[pair[k].b]);
+    double const zeta = result[k].damping_ratio;
+    if (omega2 > 0) least = std::min(least, 2 / std::sqrt(omega2) * (std::sqrt(1 + zeta * zeta) - zeta));
+  }
+  return least;
+}
+
+}  // namespace scree

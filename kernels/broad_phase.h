@@ -1,0 +1,36 @@
+// broad_phase.h: pairs of bodies whose boxes overlap, and of bodies and planes.
+// An implicit bounding volume hierarchy: leaves in Morton order, level k node i covers leaves [i 2^k, (i+1) 2^k).
+// No pointers, no atomics, near-linear for any mix of sizes, the same pairs in the same order for any thread count.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "kernels/base/queue.h"
+#include "kernels/views.h"
+
+namespace scree {
+
+struct Pair {
+  int a;  // body
+  int b;  // body > a, or -1 - plane
+
+  SCREE_HD bool with_plane() const { return b < 0; }
+  SCREE_HD int plane() const { return -1 - b; }
+  SCREE_HD friend bool operator==(Pair p, Pair q) { return p.a == q.a && p.b == q.b; }
+};
+
+// Scratch of the broad phase; reuse it between calls.
+struct BroadPhase {
+  std::vector<std::uint64_t> key;
+  std::vector<int> order;         // leaf -> body
+  std::vector<Box> node;          // all levels, leaves first
+  std::vector<int> level_first;   // of `node`
+  std::vector<int> count, first;  // pairs a body opens
+  std::vector<Pair> pair;         // result, ordered by (a, planes first in ascending index, then b)
+};
+
+void find_pairs(Queue const& queue, SceneView const& scene, Span<const Box> box, BroadPhase& work);
+
+}  // namespace scree

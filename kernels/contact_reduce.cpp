@@ -1,0 +1,182 @@
+// contact_reduce.cpp: node contacts of a pair. See contact_reduce.h.
+// SPDX-License-Identifier: Apache-2.0
+#include "kernels/contact_reduce.h"
+
+#include "kernels/base/parallel.h"
+#include "kernels/contact_laws.h"
+#include "kernels/tangential.h"
+
+namespace scree {
+namespace {
+
+struct ReducePair {
+  SceneView scene;
+  StateView state;
+  KinematicsView kinematics;
+  ContactOptions options;
+  Span<const Pair> pair;
+  Span<const char> closed_form;
+  Span<const int> side_of_pair;
+  Span<const int> active_first, active_node;
+  Span<const Vec3> point;     // partner frame
+  Span<const double> phi;     // partner's unit
+  Span<const Vec3> gradient;  // partner frame
+  Span<const int> history_first, history_count, history_node;
+  Span<const Vec3> history_xi;
+  Span<Vec3> next_xi;  // of every active node; empty without friction
+  Span<PairResult> result;
+
+  // An active node in the world frame.
+  struct Sample {
+    Vec3 x;         // [m]
+    Vec3 gradient;  // of phi with respect to x, [-]
+    double phi;     // [m]
+    double weight;  // s times area [m^2]
+    int carrier, partner;
+    double sign;  // of the force on a along the gradient: a node of a is pushed against it, a node of b along it
+  };
+
+  SCREE_HD Sample sample(Pair const& p, int which, double share, int i) const {
+    Sample out;
+    out.carrier = which == 0 ? p.a : p.b;
+    out.partner = which == 0 ? p.b : p.a;
+    out.sign = which == 0 ? -1 : 1;
+    ShapeRecord const& shape = scene.shape_record(out.carrier);
+    double const d = scene.diameter[out.carrier];
+    int const node = shape.first_node + active_node[i];
+    out.x = state.position[out.carrier] + kinematics.rotation[out.carrier] * (scene.nodes.position[node] * d);
+    out.weight = share * scene.nodes.area[node] * d * d;
+    if (out.partner < 0) {
+      out.phi = phi[i];
+      out.gradient = -scene.plane[-1 - out.partner].normal;
+    } else {
+      out.phi = phi[i] * scene.diameter[out.partner];
+      out.gradient = kinematics.rotation[out.partner] * gradient[i];
+    }
+    if (options.normalise_gradient) out.gradient = normalized(out.gradient);
+    return out;
+  }
+
+  SCREE_HD static void add(PairWrench& wrench, Vec3 force_on_a, Vec3 x, Vec3 centre_a, Vec3 centre_b) {
+    wrench.force_on_a += force_on_a;
+    wrench.torque_a += cross(x - centre_a, force_on_a);
+    wrench.torque_b -= cross(x - centre_b, force_on_a);
+  }
+
+  // Pair sums that the damping needs: K, 1/m_e at the force-weighted point, and the elastic part.
+  struct Sums {
+    double stiffness = 0, tangential = 0;  // K and K_t [N/m]
+    double force = 0;                      // sum of |node forces| [N]
+    Vec3 point;                            // force-weighted [m]
+  };
+
+  SCREE_HD void elastic_pass(Pair const& p, int which, double share, int side, WinklerLaw law,
+                             ContactParameters const& parameters, Vec3 centre_b, Sums& sums, PairResult& out) const {
+    for (int i = active_first[side]; i < active_first[side + 1]; ++i) {
+      Sample const s = sample(p, which, share, i);
+      double const pressure = law.pressure(s.phi), slope = law.slope(s.phi), steep = norm(s.gradient);
+      add(out.elastic, s.gradient * (s.sign * s.weight * pressure), s.x, state.position[p.a], centre_b);
+      double const force = s.weight * pressure * steep;
+      sums.force += force;
+      sums.point += s.x * force;
+      sums.stiffness += s.weight * slope * steep * steep;
+      sums.tangential += s.weight * law.kappa * parameters.tangential;
+      out.energy_normal += s.weight * law.energy(s.phi);
+      out.overlap = s.phi > out.overlap ? s.phi : out.overlap;
+      ++out.active;
+    }
+  }
+
+  SCREE_HD Vec3 remembered(int side, int node, int& cursor) const {
+    int const end = history_first[side] + history_count[side];
+    while (cursor < end && history_node[cursor] < node) ++cursor;
+    return cursor < end && history_node[cursor] == node ? history_xi[cursor] : Vec3{};
+  }
+
+  SCREE_HD void dissipative_pass(Pair const& p, int which, double share, int side, WinklerLaw law,
+                                 ContactParameters const& parameters, double beta, double beta_t, Vec3 centre_b,
+                                 PairResult& out) const {
+    bool const friction = parameters.friction > 0;
+    Vec3 const turn = mean_spin(kinematics, p) * options.time_step;
+    int cursor = friction ? history_first[side] : 0;
+    for (int i = active_first[side]; i < active_first[side + 1]; ++i) {
+      Sample const s = sample(p, which, share, i);
+      double const pressure = law.pressure(s.phi), steep = norm(s.gradient);
+      Vec3 const v =
+          point_velocity(state, kinematics, s.carrier, s.x) - point_velocity(state, kinematics, s.partner, s.x);
+      double total = pressure + beta * law.slope(s.phi) * dot(s.gradient, v);
+      total = total > 0 ? total : 0;  // a contact pushes, it never pulls
+      if (beta > 0)
+        add(out.damping, s.gradient * (s.sign * s.weight * (total - pressure)), s.x, state.position[p.a], centre_b);
+      if (!next_xi.empty()) next_xi[i] = {};
+      if (!friction || !(steep > 0)) continue;
+      Vec3 const n = s.gradient / steep;
+      double const kappa_t = law.kappa * parameters.tangential;
+      Vec3 const old = transport(remembered(side, active_node[i], cursor), turn, n);
+      TangentialResult const t =
+          slide(old, v - n * dot(n, v), options.time_step, beta_t, parameters.friction * total * steep / kappa_t);
+      next_xi[i] = t.xi;
+      double const stiffness = s.weight * kappa_t;
+      // The traction resists the carrier; on a it has the carrier's sign.
+      add(out.friction, t.traction * (s.sign * stiffness), s.x, state.position[p.a], centre_b);
+      out.energy_tangential += 0.5 * stiffness * norm2(t.xi);
+      out.friction_loss += stiffness * t.loss;
+    }
+  }
+
+  SCREE_HD void operator()(int k) const {
+    if (closed_form[k]) return;
+    Pair const p = pair[k];
+    PairResult out;
+    int const sides[2] = {side_of_pair[2 * std::size_t(k)], side_of_pair[2 * std::size_t(k) + 1]};
+    double const share = sides[0] >= 0 && sides[1] >= 0 ? 0.5 : 1;
+    ContactParameters const& parameters = contact_parameters(scene, p);
+    WinklerLaw const law{parameters.kappa};
+    Vec3 const centre_b = centre_of_b(scene, state, p);
+    Sums sums;
+    for (int which = 0; which < 2; ++which)
+      if (sides[which] >= 0) elastic_pass(p, which, share, sides[which], law, parameters, centre_b, sums, out);
+    if (out.active == 0) {
+      result[k] = out;
+      return;
+    }
+    Vec3 const x = sums.force > 0 ? sums.point / sums.force : state.position[p.a];
+    double const size = norm(out.elastic.force_on_a);
+    Vec3 const n = size > 0 ? out.elastic.force_on_a / size : Vec3{0, 0, 1};
+    double const mass = 1 / inverse_effective_mass(scene, state, kinematics, p, x, n);
+    double const zeta = parameters.damping_nodes;
+    double const beta = sums.stiffness > 0 ? 2 * zeta * std::sqrt(mass / sums.stiffness) : 0;
+    double const beta_t = sums.tangential > 0 ? 2 * zeta * std::sqrt(mass / sums.tangential) : 0;
+    for (int which = 0; which < 2; ++which)
+      if (sides[which] >= 0)
+        dissipative_pass(p, which, share, sides[which], law, parameters, beta, beta_t, centre_b, out);
+    out.stiffness = sums.stiffness > sums.tangential ? sums.stiffness : sums.tangential;
+    out.damping_ratio = zeta;
+    out.arm2_a = norm2(x - state.position[p.a]);
+    out.arm2_b = p.with_plane() ? 0 : norm2(x - centre_b);
+    result[k] = out;
+  }
+};
+
+}  // namespace
+
+void reduce_node_contacts(Queue const& queue, SceneView const& scene, StateView const& state, KinematicsView kinematics,
+                          ContactOptions const& options, Span<const Pair> pair, Span<const char> closed_form,
+                          NodeLists const& lists, ActiveNodes const& active, NodeHistory const& history,
+                          NodeHistory& next, Span<PairResult> result) {
+  int const sides = static_cast<int>(lists.side.size());
+  if (scene.friction) {
+    next.node = active.node;
+    next.xi.resize(active.node.size());
+    next.first.assign(active.first.begin(), active.first.begin() + sides);
+    next.count.resize(sides);
+    for (int s = 0; s < sides; ++s) next.count[s] = active.first[s + 1] - active.first[s];
+  }
+  parallel_for(queue, "contact_reduce/pairs", pair.size(),
+               ReducePair{scene, state, kinematics, options, pair, closed_form, lists.side_of_pair, active.first,
+                          active.node, active.sample.point, active.sample.phi, active.sample.gradient, history.first,
+                          history.count, history.node, history.xi, next.xi, result},
+               32);
+}
+
+}  // namespace scree

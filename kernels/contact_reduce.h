@@ -1,0 +1,84 @@
+// contact_reduce.h: from active nodes to pair wrenches and body wrenches, in a fixed order.
+// Design physics.md sections 1-2: exact energy gradient, damping per pair, friction per node with its history.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "kernels/node_gather.h"
+
+namespace scree {
+
+struct Wrench {
+  Vec3 force;   // [N]
+  Vec3 torque;  // about the body's centroid [N m]
+
+  SCREE_HD Wrench& operator+=(Wrench const& w) { return force += w.force, torque += w.torque, *this; }
+};
+
+// Forces of one kind between the bodies of a pair: on a, and the opposite one on b with b's own torque.
+struct PairWrench {
+  Vec3 force_on_a;          // [N]
+  Vec3 torque_a, torque_b;  // about the own centroids [N m]
+};
+
+struct PairResult {
+  PairWrench elastic, damping, friction;
+  double energy_normal = 0;       // stored [J]
+  double energy_tangential = 0;   // stored [J]
+  double stiffness = 0;           // K_c of the critical step, max of normal and tangential [N/m]
+  double arm2_a = 0, arm2_b = 0;  // squared distance contact point - centroid [m^2]
+  double damping_ratio = 0;       // zeta of the material pair
+  double overlap = 0;             // largest phi at a node [m]
+  int active = 0;                 // nodes (or closed-form contacts) that carry force
+  double friction_loss = 0;       // independent measure of the friction and tangential damping work of this step [J]
+};
+
+// Tangential history: xi [m, world frame] of the nodes that were active after the last step.
+struct NodeHistory {
+  std::vector<int> first, count;  // range of each side (n_sides)
+  std::vector<int> node;          // ascending within a side
+  std::vector<Vec3> xi;
+};
+// Closed-form spheres: one entry a pair.
+struct SphereHistory {
+  std::vector<Vec3> xi;           // [m] (n_pairs)
+  std::vector<double> stiffness;  // tangential stiffness at which it was stored [N/m]; 0: no contact (n_pairs)
+};
+
+struct ContactOptions {
+  double time_step = 0;             // [s]
+  bool normalise_gradient = false;  // wrong on purpose: the meter tests must notice it
+};
+
+// Pair results of all pairs with nodes; `next` receives the history of this step's active nodes.
+// Velocities in `state` are those at half step. Pairs in closed form are left untouched.
+void reduce_node_contacts(Queue const& queue, SceneView const& scene, StateView const& state, KinematicsView kinematics,
+                          ContactOptions const& options, Span<const Pair> pair, Span<const char> closed_form,
+                          NodeLists const& lists, ActiveNodes const& active, NodeHistory const& history,
+                          NodeHistory& next, Span<PairResult> result);
+
+// Closed-form contacts of sphere-sphere and sphere-plane pairs.
+void sphere_contacts(Queue const& queue, SceneView const& scene, StateView const& state, KinematicsView kinematics,
+                     ContactOptions const& options, Span<const Pair> pair, Span<const char> closed_form,
+                     SphereHistory const& history, SphereHistory& next, Span<PairResult> result);
+
+// Which pairs a body takes part in: entry 2 pair + (0: as a, 1: as b), ascending (CSR over bodies).
+struct PairsOfBodies {
+  std::vector<int> first, entry;
+};
+void assign_pairs_to_bodies(int bodies, Span<const Pair> pair, PairsOfBodies& pairs);
+
+struct BodyWrenches {
+  std::vector<Wrench> elastic, damping, friction;  // (n_bodies)
+  std::vector<double> stiffness;                   // S_i of the critical step [1/s^2] (n_bodies)
+};
+void reduce_to_bodies(Queue const& queue, SceneView const& scene, Span<const PairResult> result,
+                      PairsOfBodies const& pairs, BodyWrenches& bodies);
+
+// Largest stable step of this contact network: (2/omega)(sqrt(1+zeta^2) - zeta), omega^2 = max over pairs (S_i + S_j);
+// infinity without contact. Conservative (design physics.md section 4).
+double critical_time_step(SceneView const& scene, Span<const Pair> pair, Span<const PairResult> result,
+                          Span<const double> stiffness);
+
+}  // namespace scree

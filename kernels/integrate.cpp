@@ -1,0 +1,74 @@
+// integrate.cpp: see integrate.h.
+// SPDX-License-Identifier: Apache-2.0
+#include "kernels/integrate.h"
+
+#include "kernels/base/parallel.h"
+
+namespace scree {
+namespace {
+
+// Kick, and account for the work of the dissipative forces at the half-step velocity.
+SCREE_HD void half_kick(SceneView const& scene, StateView const& state, WrenchesView const& w, double dt, int i,
+                        Vec3& velocity, Vec3& angular_momentum) {
+  Wrench total = w.elastic[i];
+  total += w.damping[i];
+  total += w.friction[i];
+  total += w.external[i];
+  velocity = state.velocity[i] + total.force * (0.5 * dt / scene.mass[i]);
+  angular_momentum = state.angular_momentum[i] + total.torque * (0.5 * dt);
+}
+
+SCREE_HD void account(SceneView const& scene, StateView const& state, WrenchesView const& w, double dt, int i,
+                      Vec3 half_velocity, Vec3 half_angular_momentum, WorkView const& work) {
+  Vec3 const spin = spin_of(to_matrix(state.orientation[i]), scene.inertia[i], half_angular_momentum);
+  work.damping[i] += 0.5 * dt * (dot(w.damping[i].force, half_velocity) + dot(w.damping[i].torque, spin));
+  work.friction[i] += 0.5 * dt * (dot(w.friction[i].force, half_velocity) + dot(w.friction[i].torque, spin));
+}
+
+struct OpenStep {
+  SceneView scene;
+  StateView state;
+  WrenchesView wrenches;
+  double dt;
+  WorkView work;
+
+  SCREE_HD void operator()(int i) const {
+    Vec3 v, l;
+    half_kick(scene, state, wrenches, dt, i, v, l);
+    account(scene, state, wrenches, dt, i, v, l, work);
+    state.velocity[i] = v;
+    state.angular_momentum[i] = l;
+    state.position[i] += v * dt;
+    state.orientation[i] = rotate_free(state.orientation[i], scene.inertia[i], l, dt);
+  }
+};
+
+struct CloseStep {
+  SceneView scene;
+  StateView state;
+  WrenchesView wrenches;
+  double dt;
+  WorkView work;
+
+  SCREE_HD void operator()(int i) const {
+    account(scene, state, wrenches, dt, i, state.velocity[i], state.angular_momentum[i], work);
+    Vec3 v, l;
+    half_kick(scene, state, wrenches, dt, i, v, l);
+    state.velocity[i] = v;
+    state.angular_momentum[i] = l;
+  }
+};
+
+}  // namespace
+
+void open_step(Queue const& queue, SceneView const& scene, StateView const& state, WrenchesView const& wrenches,
+               double dt, WorkView const& work) {
+  parallel_for(queue, "integrate/open", scene.bodies(), OpenStep{scene, state, wrenches, dt, work}, 256);
+}
+
+void close_step(Queue const& queue, SceneView const& scene, StateView const& state, WrenchesView const& wrenches,
+                double dt, WorkView const& work) {
+  parallel_for(queue, "integrate/close", scene.bodies(), CloseStep{scene, state, wrenches, dt, work}, 256);
+}
+
+}  // namespace scree

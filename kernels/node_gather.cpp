@@ -1,0 +1,166 @@
+// node_gather.cpp: sides of pairs, and the nodes inside at this step. The lists themselves: node_lists.cpp.
+// SPDX-License-Identifier: Apache-2.0
+#include "kernels/node_gather.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "kernels/base/parallel.h"
+#include "kernels/base/sort_scan.h"
+
+namespace scree {
+namespace {
+
+struct KinematicsOfBody {
+  SceneView scene;
+  StateView state;
+  Span<Mat3> rotation;
+  Span<Vec3> spin;
+
+  SCREE_HD void operator()(int i) const {
+    rotation[i] = to_matrix(state.orientation[i]);
+    spin[i] = spin_of(rotation[i], scene.inertia[i], state.angular_momentum[i]);
+  }
+};
+
+struct ListedPoint {
+  SceneView scene;
+  StateView state;
+  KinematicsView kinematics;
+  Span<const Side> side;
+  Span<const int> first, node;
+  Span<Vec3> point;
+  Span<int> partner, listed_side;
+
+  SCREE_HD void operator()(int s) const {
+    int const base = scene.shape_record(side[s].carrier).first_node;
+    for (int i = first[s]; i < first[s + 1]; ++i) {
+      point[i] = point_in_partner(scene, state, kinematics, side[s], scene.nodes.position[base + node[i]]);
+      partner[i] = side[s].partner;
+      listed_side[i] = s;
+    }
+  }
+};
+
+struct CountActive {
+  Span<const int> first;
+  Span<const double> phi;
+  Span<int> count;
+
+  SCREE_HD void operator()(int s) const {
+    int n = 0;
+    for (int i = first[s]; i < first[s + 1]; ++i) n += phi[i] > 0;
+    count[s] = n;
+  }
+};
+
+struct FillActive {
+  Span<const int> listed_first, listed_node;
+  Span<const double> phi;
+  Span<const Vec3> listed_point;
+  Span<const int> listed_partner;
+  Span<const int> first;
+  Span<int> node;
+  Span<Vec3> point;
+  Span<int> partner;
+
+  SCREE_HD void operator()(int s) const {
+    int out = first[s];
+    for (int i = listed_first[s]; i < listed_first[s + 1]; ++i) {
+      if (!(phi[i] > 0)) continue;
+      node[out] = listed_node[i];
+      point[out] = listed_point[i];
+      partner[out] = listed_partner[i];
+      ++out;
+    }
+  }
+};
+
+void groups_of_items(std::vector<int> const& side_group, std::vector<int> const& first, std::vector<int>& group) {
+  group.resize(side_group.size());
+  for (std::size_t g = 0; g < side_group.size(); ++g) group[g] = first[side_group[g]];
+}
+
+int network_of(SceneView const& scene, Side const& side, int networks) {
+  int const net = side.partner < 0 ? -1 : scene.shape_record(side.partner).net;
+  return net < 0 ? networks : net;
+}
+
+}  // namespace
+
+void compute_kinematics(Queue const& queue, SceneView const& scene, StateView const& state, Kinematics& kinematics) {
+  kinematics.rotation.resize(scene.bodies());
+  kinematics.spin.resize(scene.bodies());
+  parallel_for(queue, "integrate/kinematics", scene.bodies(),
+               KinematicsOfBody{scene, state, kinematics.rotation, kinematics.spin}, 512);
+}
+
+void assign_sides(SceneView const& scene, int networks, Span<const Pair> pair, Span<const int> old_pair,
+                  Span<const char> closed_form, NodeGather& gather, std::vector<int>& old_side) {
+  NodeLists old = std::move(gather.lists);
+  NodeLists& lists = gather.lists;
+  lists = {};
+  lists.rebuilt = old.rebuilt, lists.block_queries = old.block_queries, lists.node_queries = old.node_queries;
+  for (int k = 0; k < pair.size(); ++k) {
+    if (closed_form[k]) continue;
+    Pair const p = pair[k];
+    if (scene.shape_record(p.a).nodes > 0) lists.side.push_back({k, p.a, p.b});
+    if (!p.with_plane() && scene.shape_record(p.b).nodes > 0) lists.side.push_back({k, p.b, p.a});
+  }
+  std::stable_sort(lists.side.begin(), lists.side.end(), [&](Side const& x, Side const& y) {
+    return network_of(scene, x, networks) < network_of(scene, y, networks);
+  });
+  int const n = static_cast<int>(lists.side.size());
+  lists.group.assign(networks + 2, 0);
+  for (Side const& s : lists.side) ++lists.group[network_of(scene, s, networks) + 1];
+  std::partial_sum(lists.group.begin(), lists.group.end(), lists.group.begin());
+  lists.side_of_pair.assign(2 * std::size_t(pair.size()), -1);
+  lists.built.resize(n);
+  lists.margin.assign(n, -1);
+  lists.first.assign(1, 0);
+  old_side.assign(n, -1);
+  for (int s = 0; s < n; ++s) {
+    Side const& side = lists.side[s];
+    int const which = side.carrier == pair[side.pair].a ? 0 : 1;
+    lists.side_of_pair[2 * std::size_t(side.pair) + which] = s;
+    int const before = old_pair[side.pair] < 0 ? -1 : old.side_of_pair[2 * std::size_t(old_pair[side.pair]) + which];
+    old_side[s] = before;
+    if (before >= 0) {
+      lists.built[s] = old.built[before];
+      lists.margin[s] = old.margin[before];
+      lists.node.insert(lists.node.end(), old.node.begin() + old.first[before],
+                        old.node.begin() + old.first[before + 1]);
+    }
+    lists.first.push_back(static_cast<int>(lists.node.size()));
+  }
+}
+
+void find_active_nodes(Queue const& queue, SceneView const& scene, StateView const& state, KinematicsView kinematics,
+                       NetworkSet const& networks, NodeLists const& lists, ActiveNodes& active) {
+  int const sides = static_cast<int>(lists.side.size()), listed = static_cast<int>(lists.node.size());
+  active.listed.resize(listed);
+  active.listed_side.resize(listed);
+  active.count.resize(sides);
+  active.first.resize(sides + 1);
+  groups_of_items(lists.group, lists.first, active.listed.group);
+  parallel_for(queue, "node_gather/listed", sides,
+               ListedPoint{scene, state, kinematics, lists.side, lists.first, lists.node, active.listed.point,
+                           active.listed.partner, active.listed_side},
+               64);
+  evaluate_phi(queue, scene, networks, active.listed);
+  active.queries += listed;
+  parallel_for(queue, "node_gather/count", sides, CountActive{lists.first, active.listed.phi, active.count}, 512);
+  exclusive_scan(queue, active.count, active.first);
+  int const n = active.first[sides];
+  active.node.resize(n);
+  active.sample.resize(n);
+  active.sample.gradient.resize(n);
+  groups_of_items(lists.group, active.first, active.sample.group);
+  parallel_for(queue, "node_gather/compact", sides,
+               FillActive{lists.first, lists.node, active.listed.phi, active.listed.point, active.listed.partner,
+                          active.first, active.node, active.sample.point, active.sample.partner},
+               512);
+  evaluate_phi_gradient(queue, scene, networks, active.sample);
+}
+
+}  // namespace scree

@@ -1,0 +1,99 @@
+// node_gather.h: which surface nodes of a pair may be inside the partner, kept between steps as node lists.
+// A list holds every node with phi > -(skin L) when it was built and stays valid while the pair moves less than the
+// skin; blocks of 32 nodes are rejected by one query each (design inference.md section 1). Conservative: the contact
+// set equals brute force, which the tests assert.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "kernels/broad_phase.h"
+#include "kernels/sdf_queries.h"
+
+namespace scree {
+
+// Rotation matrices and spins of all bodies at the current poses, made once a step.
+struct Kinematics {
+  std::vector<Mat3> rotation;  // body -> world (n_bodies)
+  std::vector<Vec3> spin;      // world [rad/s] (n_bodies)
+};
+struct KinematicsView {
+  Span<const Mat3> rotation;
+  Span<const Vec3> spin;
+};
+void compute_kinematics(Queue const& queue, SceneView const& scene, StateView const& state, Kinematics& kinematics);
+
+// One side of a pair: the nodes of `carrier` against phi of `partner`.
+struct Side {
+  int pair;
+  int carrier;  // body
+  int partner;  // body, or -1 - plane
+};
+
+struct RelativePose {
+  Vec3 position;  // of the carrier's centroid in the partner's frame [m]
+  Quat orientation;
+};
+
+struct NodeLists {
+  std::vector<Side> side;           // grouped by the partner's network, analytic partners last; by pair within
+  std::vector<int> group;           // first side of each network, of the analytic rest, end (networks + 2)
+  std::vector<int> side_of_pair;    // [2 pair + (0: nodes of a | 1: nodes of b)]; -1: that side carries no nodes
+  std::vector<RelativePose> built;  // pose at which the list was built (n_sides)
+  std::vector<double> margin;       // motion the list still covers [m]; negative: never built (n_sides)
+  std::vector<int> first;           // (n_sides + 1)
+  std::vector<int> node;            // relative to the shape's first node, ascending within a side
+  std::int64_t rebuilt = 0;         // sides rebuilt since the start
+  std::int64_t block_queries = 0, node_queries = 0;
+};
+
+struct NodeGather {
+  NodeLists lists;
+  // Scratch of a rebuild.
+  std::vector<int> stale, count, block_first, block_item, item_side, node_first, node_item, node_side, keep, kept_first;
+  std::vector<double> skin;
+  std::vector<int> next_first, next_node;
+  QueryBatch query;
+};
+
+// Sides for a new pair list. `old_pair[k]` is the index pair k had before, or -1; lists of surviving sides are kept.
+// Pairs listed in `closed_form` (one flag a pair) get no sides.
+void assign_sides(SceneView const& scene, int networks, Span<const Pair> pair, Span<const int> old_pair,
+                  Span<const char> closed_form, NodeGather& gather, std::vector<int>& old_side);
+
+struct GatherOptions {
+  double time_step = 0;      // [s], from which a pair's skin follows its motion
+  bool brute_force = false;  // every node of every side, at every step
+};
+
+// Rebuild the lists whose pair has moved further than its margin.
+void update_node_lists(Queue const& queue, SceneView const& scene, StateView const& state, KinematicsView kinematics,
+                       NetworkSet const& networks, GatherOptions const& options, NodeGather& gather);
+
+// Nodes inside their partner at this step, grouped as the sides are.
+struct ActiveNodes {
+  std::vector<int> first;    // (n_sides + 1)
+  std::vector<int> node;     // relative to the shape's first node, ascending within a side
+  QueryBatch sample;         // point, phi > 0 and gradient of each
+  std::int64_t queries = 0;  // listed nodes evaluated since the start
+  // Scratch.
+  QueryBatch listed;
+  std::vector<int> listed_side, count;
+};
+void find_active_nodes(Queue const& queue, SceneView const& scene, StateView const& state, KinematicsView kinematics,
+                       NetworkSet const& networks, NodeLists const& lists, ActiveNodes& active);
+
+// Carrier's point p [carrier's d, body frame] in the partner's frame and unit (see QueryBatch::point).
+SCREE_HD inline Vec3 point_in_partner(SceneView const& scene, StateView const& state, KinematicsView const& kinematics,
+                                      Side const& side, Vec3 p) {
+  Vec3 const arm = kinematics.rotation[side.carrier] * (p * scene.diameter[side.carrier]);
+  if (side.partner < 0) {
+    PlaneRecord const& plane = scene.plane[-1 - side.partner];
+    return {0, 0, dot(plane.normal, (state.position[side.carrier] - plane.point) + arm)};
+  }
+  Vec3 const offset = (state.position[side.carrier] - state.position[side.partner]) + arm;
+  return transposed_times(kinematics.rotation[side.partner], offset) / scene.diameter[side.partner];
+}
+
+}  // namespace scree

@@ -1,0 +1,115 @@
+// sphere_contacts.cpp: spheres against spheres and planes in closed form: one contact, no nodes, no network.
+// SPDX-License-Identifier: Apache-2.0
+#include "kernels/base/parallel.h"
+#include "kernels/contact_laws.h"
+#include "kernels/contact_reduce.h"
+#include "kernels/tangential.h"
+
+namespace scree {
+namespace {
+
+struct SpherePair {
+  SceneView scene;
+  StateView state;
+  KinematicsView kinematics;
+  ContactOptions options;
+  Span<const Pair> pair;
+  Span<const char> closed_form;
+  Span<const Vec3> history_xi;
+  Span<const double> history_stiffness;
+  Span<Vec3> next_xi;  // empty without friction
+  Span<double> next_stiffness;
+  Span<PairResult> result;
+
+  SCREE_HD double radius(int body) const {
+    return scene.shape_record(body).analytic.half_size.x * scene.diameter[body];
+  }
+
+  // Elastic force kept when the contact stiffens, elastic stretch kept when it softens: neither makes energy.
+  SCREE_HD Vec3 restored(int k, double stiffness) const {
+    double const before = history_stiffness[k];
+    if (!(before > 0)) return {};
+    return before < stiffness ? history_xi[k] * (before / stiffness) : history_xi[k];
+  }
+
+  SCREE_HD void operator()(int k) const {
+    if (!closed_form[k]) return;
+    Pair const p = pair[k];
+    PairResult out;
+    if (!next_xi.empty()) next_xi[k] = {}, next_stiffness[k] = 0;
+    double const ra = radius(p.a);
+    Vec3 const xa = state.position[p.a];
+    Vec3 n;  // from b to a
+    double overlap, effective, reach_b = 0;
+    if (p.with_plane()) {
+      PlaneRecord const& plane = scene.plane[p.plane()];
+      n = plane.normal;
+      overlap = ra - dot(n, xa - plane.point);
+      effective = ra;
+    } else {
+      double const rb = radius(p.b);
+      Vec3 const gap = xa - state.position[p.b];
+      double const distance = norm(gap);
+      n = distance > 0 ? gap / distance : Vec3{0, 0, 1};
+      overlap = ra + rb - distance;
+      effective = ra * rb / (ra + rb);
+      reach_b = rb - 0.5 * overlap;
+    }
+    if (!(overlap > 0)) {
+      result[k] = out;
+      return;
+    }
+    ContactParameters const& parameters = contact_parameters(scene, p);
+    WinklerSphere const law{parameters.kappa, effective};
+    // The contact point lies half way into the overlap; on a plane, on the plane.
+    Vec3 const x = p.with_plane() ? xa - n * (ra - overlap) : state.position[p.b] + n * reach_b;
+    double const mass = 1 / inverse_effective_mass(scene, state, kinematics, p, x, n);
+    double const stiffness = law.stiffness(overlap), force = law.force(overlap);
+    Vec3 const v =
+        point_velocity(state, kinematics, p.a, x) - point_velocity(state, kinematics, p.with_plane() ? -1 : p.b, x);
+    double total = force - 2 * parameters.damping_sphere * std::sqrt(mass * stiffness) * dot(n, v);
+    total = total > 0 ? total : 0;
+    Vec3 const arm_a = x - xa, arm_b = p.with_plane() ? Vec3{} : x - state.position[p.b];
+    out.elastic.force_on_a = n * force;
+    out.damping.force_on_a = n * (total - force);
+    out.energy_normal = law.energy(overlap);
+    out.overlap = overlap;
+    out.active = 1;
+    out.damping_ratio = parameters.damping_sphere;
+    out.arm2_a = norm2(arm_a);
+    out.arm2_b = norm2(arm_b);
+    out.stiffness = stiffness;
+    double const k_t = stiffness * parameters.tangential;
+    if (parameters.friction > 0 && k_t > 0) {
+      Vec3 const old = transport(restored(k, k_t), mean_spin(kinematics, p) * options.time_step, n);
+      TangentialResult const t =
+          slide(old, v - n * dot(n, v), options.time_step, 2 * parameters.damping_sphere * std::sqrt(mass / k_t),
+                parameters.friction * total / k_t);
+      next_xi[k] = t.xi;
+      next_stiffness[k] = k_t;
+      Vec3 const drag = t.traction * -k_t;
+      out.friction = {drag, cross(arm_a, drag), -cross(arm_b, drag)};
+      out.energy_tangential = 0.5 * k_t * norm2(t.xi);
+      out.friction_loss = k_t * t.loss;
+      out.stiffness = stiffness > k_t ? stiffness : k_t;
+    }
+    result[k] = out;
+  }
+};
+
+}  // namespace
+
+void sphere_contacts(Queue const& queue, SceneView const& scene, StateView const& state, KinematicsView kinematics,
+                     ContactOptions const& options, Span<const Pair> pair, Span<const char> closed_form,
+                     SphereHistory const& history, SphereHistory& next, Span<PairResult> result) {
+  if (scene.friction) {
+    next.xi.resize(pair.size());
+    next.stiffness.resize(pair.size());
+  }
+  parallel_for(queue, "sphere_contacts/pairs", pair.size(),
+               SpherePair{scene, state, kinematics, options, pair, closed_form, history.xi, history.stiffness, next.xi,
+                          next.stiffness, result},
+               256);
+}
+
+}  // namespace scree

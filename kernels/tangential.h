@@ -1,0 +1,73 @@
+// tangential.h: what node contacts and closed-form spheres share: the damping of a pair and the tangential spring.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "kernels/contact_reduce.h"
+
+namespace scree {
+
+SCREE_HD inline Vec3 centre_of_b(SceneView const&, StateView const& state, Pair const& pair) {
+  return pair.with_plane() ? Vec3{} : state.position[pair.b];
+}
+
+// Velocity of a body's point x, or 0 for a plane.
+SCREE_HD inline Vec3 point_velocity(StateView const& state, KinematicsView const& kinematics, int body, Vec3 x) {
+  if (body < 0) return {};
+  return state.velocity[body] + cross(kinematics.spin[body], x - state.position[body]);
+}
+
+// 1/m_e of the pair at point x along the unit direction n: both translations and both lever arms [1/kg].
+SCREE_HD inline double inverse_effective_mass(SceneView const& scene, StateView const& state,
+                                              KinematicsView const& kinematics, Pair const& pair, Vec3 x, Vec3 n) {
+  double sum = 0;
+  for (int k = 0; k < (pair.with_plane() ? 1 : 2); ++k) {
+    int const body = k == 0 ? pair.a : pair.b;
+    Vec3 const arm = cross(x - state.position[body], n);
+    sum += 1 / scene.mass[body] + dot(arm, inverse_inertia_times(kinematics.rotation[body], scene.inertia[body], arm));
+  }
+  return sum;
+}
+
+SCREE_HD inline ContactParameters const& contact_parameters(SceneView const& scene, Pair const& pair) {
+  int const mb = pair.with_plane() ? scene.plane[pair.plane()].material : scene.material_of[pair.b];
+  return scene.contact[scene.material_of[pair.a] * scene.materials + mb];
+}
+
+SCREE_HD inline Vec3 mean_spin(KinematicsView const& kinematics, Pair const& pair) {
+  Vec3 const wa = kinematics.spin[pair.a];
+  return pair.with_plane() ? wa * 0.5 : (wa + kinematics.spin[pair.b]) * 0.5;
+}
+
+// xi of the last step carried to this one: turned with the mean spin of the pair, laid into the tangent plane of unit
+// normal n, and given its old length back. Projection alone would lose the force as the pair turns.
+SCREE_HD inline Vec3 transport(Vec3 xi, Vec3 rotation, Vec3 n) {
+  double const length = norm(xi);
+  if (!(length > 0)) return {};
+  Quat const q = quat_from_rotation_vector(rotation);
+  Vec3 const turned = to_matrix(q) * xi;
+  Vec3 const flat = turned - n * dot(n, turned);
+  double const flat_length = norm(flat);
+  return flat_length > 0 ? flat * (length / flat_length) : Vec3{};
+}
+
+struct TangentialResult {
+  Vec3 xi;        // to store [m]
+  Vec3 traction;  // spring plus dashpot, in units of [m]: times stiffness gives the force against the motion
+  double loss;    // work lost this step per unit stiffness [m^2]
+};
+
+// Spring with Coulomb limit. xi_old: transported; v: tangential velocity of the carrier relative to its partner;
+// beta: dashpot time [s]; limit: mu times normal force over tangential stiffness [m].
+SCREE_HD inline TangentialResult slide(Vec3 xi_old, Vec3 v, double dt, double beta, double limit) {
+  Vec3 const trial = xi_old + v * dt;
+  double const stretched = norm(trial);
+  Vec3 const xi = stretched > limit ? trial * (limit / stretched) : trial;
+  Vec3 total = xi + v * beta;
+  double const size = norm(total);
+  if (size > limit) total = total * (limit / size);
+  // Plastic part by the trapezoidal rule (exact for a linear spring), viscous part by the dashpot's force.
+  double const loss = 0.5 * dot(xi_old + xi, trial - xi) + dot(total - xi, v) * dt;
+  return {xi, total, loss};
+}
+
+}  // namespace scree

@@ -1,0 +1,87 @@
+// views.h: what a kernel sees of Scene and State: spans, owning nothing.
+// World frame unless the name says otherwise. Lengths of a shape's own data are in units of its body's diameter d.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "kernels/base/span.h"
+#include "kernels/base/vec.h"
+#include "kernels/sdf/analytic.h"
+
+namespace scree {
+
+// A shape template, shared by every body that has this shape.
+struct ShapeRecord {
+  bool closed_form_sphere = false;  // contacts with its like and with planes need no nodes
+  int net = -1;                     // -1: `analytic` defines phi
+  int bias_row = 0;                 // of its network's first-layer biases
+  AnalyticSdf analytic;             // units of d
+  Mat3 query_rotation;              // x_net = query_rotation * (x * query_scale) + query_shift
+  Vec3 query_shift;
+  double query_scale = 1;
+  double bounding_radius = 0.5;  // of the zero set about the centroid [d]
+  Box box;                       // of the zero set in the body frame [d]
+  double lipschitz = 1;          // upper bound of |grad phi|
+  double node_spacing = 0;       // typical [d]
+  int first_node = 0, nodes = 0;
+  int first_block = 0, blocks = 0;
+};
+
+struct NodesView {
+  Span<const Vec3> position;        // [d], of all shapes (n_nodes)
+  Span<const double> area;          // [d^2] (n_nodes)
+  Span<const Vec3> block_centre;    // [d] (n_blocks)
+  Span<const double> block_radius;  // [d] (n_blocks)
+  Span<const int> block_first;      // first node of a block, relative to the shape's first node (n_blocks + shapes):
+                                    // block b of shape s at first_block[s] + s + b, with an end entry a shape
+};
+
+// A half space: the solid lies behind the plane. A box container is one such record a face.
+struct PlaneRecord {
+  Vec3 point, normal;  // [m], unit normal into the free space
+  int material = 0;
+  int wall = 0;  // index of the wall in the case
+};
+
+// Parameters of one material pair.
+struct ContactParameters {
+  double kappa = 0;           // Winkler modulus [N/m3]
+  double tangential = 0;      // kappa_t / kappa [-]
+  double friction = 0;        // mu [-]; 0: none
+  double damping_nodes = 0;   // zeta of node contacts [-]; 0: none
+  double damping_sphere = 0;  // zeta of closed-form spheres, whose force clips once a pair [-]
+};
+
+struct SceneView {
+  Span<const ShapeRecord> shape;
+  NodesView nodes;
+  Span<const int> shape_of;               // (n_bodies)
+  Span<const int> material_of;            // (n_bodies)
+  Span<const double> diameter;            // of the equal-volume sphere [m] (n_bodies)
+  Span<const double> mass;                // [kg] (n_bodies)
+  Span<const Vec3> inertia;               // principal, body frame [kg m2] (n_bodies)
+  Span<const PlaneRecord> plane;          // (n_planes)
+  Span<const ContactParameters> contact;  // [material_a * materials + material_b]
+  int materials = 0;
+  bool friction = false;  // some pair has friction: history exists
+
+  SCREE_HD int bodies() const { return shape_of.size(); }
+  SCREE_HD ShapeRecord const& shape_record(int body) const { return shape[shape_of[body]]; }
+};
+
+struct StateView {
+  Span<Vec3> position;          // of the centroid [m] (n_bodies)
+  Span<Quat> orientation;       // body -> world (n_bodies)
+  Span<Vec3> velocity;          // [m/s] (n_bodies)
+  Span<Vec3> angular_momentum;  // about the centroid, world frame [kg m2/s] (n_bodies)
+};
+
+// Spin [rad/s] of a body from its angular momentum.
+SCREE_HD inline Vec3 spin_of(Mat3 const& rotation, Vec3 inertia, Vec3 angular_momentum) {
+  return rotation * divide(transposed_times(rotation, angular_momentum), inertia);
+}
+// I^-1 torque in the world frame.
+SCREE_HD inline Vec3 inverse_inertia_times(Mat3 const& rotation, Vec3 inertia, Vec3 torque) {
+  return spin_of(rotation, inertia, torque);
+}
+
+}  // namespace scree
