@@ -1,0 +1,23 @@
+// mesh_files.h: triangle meshes from and to STL (binary, ASCII) and OBJ files.
+// Only geometry: normals, colours, materials and groups are skipped. Polygons of OBJ are cut into fans.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+
+#include "shapes/triangle_mesh.h"
+
+namespace scree {
+
+// Read by extension (.stl, .obj, any case). Vertices with the same coordinates become one, and triangles that use a
+// vertex twice are dropped. Unit: the file's. Throws std::runtime_error "<file>:<line>: ..." (binary: "<file>: facet
+// <n>: ...") for anything unreadable, non-finite, out of range, or a length that is not what the header promises.
+TriangleMesh read_mesh(std::filesystem::path const& file);
+
+// Write by extension: .stl (binary) or .obj. Throws std::runtime_error naming the file.
+void write_mesh(std::filesystem::path const& file, TriangleMesh const& mesh);
+
+// Merge vertices with identical coordinates and drop triangles that then use a vertex twice.
+TriangleMesh weld(TriangleMesh const& soup);
+
+}  // namespace scree
