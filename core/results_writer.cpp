@@ -1,0 +1,189 @@
+// results_writer.cpp: the results file as a run writes it; the layout is listed in core/README.md.
+// SPDX-License-Identifier: Apache-2.0
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+#include <system_error>
+
+#include "core/results.h"
+#include "core/results_hdf5.h"
+#include "core/results_layout.h"
+#include "shapes/file_container.h"
+#include "shapes/model_file.h"
+
+namespace scree {
+namespace {
+
+namespace fs = std::filesystem;
+using results_hdf5::Series;
+using results_hdf5::write_array;
+using results_hdf5::write_text;
+using results_hdf5::write_texts;
+
+// The shapes used, as a whole model file inside the results file: one format, one reader, one set of checks.
+std::vector<std::uint8_t> model_bytes(Library const& library, fs::path const& beside) {
+  fs::path const temporary = beside.string() + ".model";
+  write_model(temporary, library, true);
+  std::ifstream stream(temporary, std::ios::binary);
+  std::vector<std::uint8_t> bytes{std::istreambuf_iterator<char>(stream), {}};
+  stream.close();
+  fs::remove(temporary);
+  return bytes;
+}
+
+void write_walls(hid_t file, std::vector<ResultsWall> const& wall) {
+  hdf5::Handle const group = hdf5::create_group(file, "/walls");
+  std::vector<std::string> name;
+  std::vector<Vec3> point, normal;
+  for (ResultsWall const& w : wall) {
+    name.push_back(w.name);
+    point.push_back(w.point);
+    normal.push_back(w.normal);
+  }
+  write_texts(group, "name", name);
+  write_array(group, "point", point.empty() ? nullptr : &point[0].x, {wall.size(), 3});
+  write_array(group, "normal", normal.empty() ? nullptr : &normal[0].x, {wall.size(), 3});
+}
+
+void write_header(hid_t file, ResultsHeader const& h, fs::path const& temporary) {
+  hdf5::write_attribute(file, "format", std::string(results_layout::kind));
+  hdf5::write_attribute(file, "version", std::int64_t{results_layout::version});
+  write_text(file, "case", h.case_text);
+  write_texts(file, "shape_name", h.shape_name);
+  if (!h.library.shape.empty()) {
+    std::vector<std::uint8_t> const bytes = model_bytes(h.library, temporary);
+    write_array(file, "model", bytes.data(), {bytes.size()});
+  }
+  hdf5::Handle const bodies = hdf5::create_group(file, "/bodies");
+  results_hdf5::Extent const n{h.shape.size()};
+  write_array(bodies, "shape", h.shape.data(), n);
+  write_array(bodies, "diameter", h.diameter.data(), n);
+  write_array(bodies, "material", h.material.data(), n);
+  write_array(bodies, "group", h.group.data(), n);
+  write_array(bodies, "replica", h.replica.data(), n);
+  write_walls(file, h.wall);
+  write_array(file, "domain", &h.domain.min.x, {2, 3});
+}
+
+void check_header(ResultsHeader const& h) {
+  std::size_t const n = h.shape.size();
+  if (h.diameter.size() != n || h.material.size() != n || h.group.size() != n || h.replica.size() != n)
+    throw std::invalid_argument("ResultsWriter: arrays of the header differ in length");
+  if (h.shape_name.size() != h.library.shape.size())
+    throw std::invalid_argument("ResultsWriter: shape_name and library.shape differ in length");
+}
+
+}  // namespace
+
+struct ResultsWriter::Data {
+  fs::path final_name, temporary;
+  std::size_t bodies = 0;
+  hdf5::Handle file;
+  hdf5::Handle frames;
+  Series<double> time, position, orientation, velocity, spin, ledger;
+  Series<std::int64_t> step;
+
+  Data(fs::path const& name, ResultsHeader const& header)
+      : final_name(name), temporary(name.string() + ".partial"), bodies(header.shape.size()) {
+    hsize_t const n = bodies;
+    fs::remove(temporary);
+    file = hdf5::create_file(temporary.string());
+    write_header(file, header, temporary);
+    frames = hdf5::create_group(file, "/frames");
+    time = {frames, "time", {}};
+    step = {frames, "step", {}};
+    position = {frames, "position", {n, 3}};
+    orientation = {frames, "orientation", {n, 4}};
+    velocity = {frames, "velocity", {n, 3}};
+    spin = {frames, "spin", {n, 3}};
+    ledger = {file, "ledger", {results_layout::ledger.size()}};
+    flush();
+  }
+
+  // After this a killed run loses nothing that was written before.
+  void flush() {
+    if (H5Fflush(file, H5F_SCOPE_GLOBAL) < 0) throw std::runtime_error("cannot be flushed; is the disk full?");
+  }
+
+  // HDF5's and the container's complaints with the file's name, as one type.
+  template <class Work>
+  void guarded(Work const& work) const {
+    hdf5::QuietErrors const quiet;
+    try {
+      work();
+    } catch (std::invalid_argument const&) {
+      throw;
+    } catch (std::system_error const&) {
+      throw;
+    } catch (std::exception const& e) {
+      throw std::system_error(std::make_error_code(std::errc::io_error), final_name.string() + ": " + e.what());
+    }
+  }
+};
+
+ResultsWriter::ResultsWriter(fs::path const& file, ResultsHeader const& header) {
+  check_header(header);
+  hdf5::QuietErrors const quiet;
+  try {
+    data_ = std::make_unique<Data>(file, header);
+  } catch (std::system_error const&) {
+    throw;
+  } catch (std::exception const& e) {
+    throw std::system_error(std::make_error_code(std::errc::io_error), file.string() + ": " + e.what());
+  }
+}
+
+ResultsWriter::~ResultsWriter() = default;
+
+void ResultsWriter::write_frame(Frame const& frame) {
+  Data& d = *data_;
+  if (frame.position.size() != d.bodies || frame.orientation.size() != d.bodies || frame.velocity.size() != d.bodies ||
+      frame.spin.size() != d.bodies)
+    throw std::invalid_argument("write_frame: the frame does not have the header's number of bodies");
+  d.guarded([&] {
+    d.position.append(reinterpret_cast<double const*>(frame.position.data()));
+    d.orientation.append(reinterpret_cast<double const*>(frame.orientation.data()));
+    d.velocity.append(reinterpret_cast<double const*>(frame.velocity.data()));
+    d.spin.append(reinterpret_cast<double const*>(frame.spin.data()));
+    d.step.append(&frame.step);
+    d.time.append(&frame.time);
+    d.flush();
+  });
+}
+
+void ResultsWriter::write_ledger(LedgerRow const& row) {
+  data_->guarded([&] {
+    std::array<double, results_layout::ledger.size()> value;
+    for (std::size_t i = 0; i < value.size(); ++i) value[i] = row.*results_layout::ledger[i].value;
+    data_->ledger.append(value.data());
+  });
+}
+
+void ResultsWriter::finish(std::vector<StageRow> const& stages) {
+  Data& d = *data_;
+  d.guarded([&] {
+    std::vector<std::string> name;
+    std::vector<double> seconds;
+    std::vector<std::int64_t> calls, items;
+    for (StageRow const& s : stages) {
+      name.push_back(s.name);
+      seconds.push_back(s.seconds);
+      calls.push_back(s.calls);
+      items.push_back(s.items);
+    }
+    {
+      hdf5::Handle const group = hdf5::create_group(d.file, "/stages");
+      write_texts(group, "name", name);
+      write_array(group, "seconds", seconds.data(), {stages.size()});
+      write_array(group, "calls", calls.data(), {stages.size()});
+      write_array(group, "items", items.data(), {stages.size()});
+    }
+    for (Series<double>* series : {&d.time, &d.position, &d.orientation, &d.velocity, &d.spin, &d.ledger}) *series = {};
+    d.step = {};
+    d.frames = {};
+    d.file.close("cannot be written; is the disk full?");
+    seal_container(d.temporary, d.final_name, results_layout::kind, results_layout::version);
+  });
+}
+
+}  // namespace scree
