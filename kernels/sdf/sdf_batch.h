@@ -18,7 +18,8 @@ namespace scree {
 // between threads. One object serves every shape of a decoder: what differs between shapes is the first-layer bias.
 class PackedMlp {
  public:
-  // Throws std::invalid_argument listing problems(net), or when a hidden width exceeds 64.
+  // Throws std::invalid_argument listing problems(net), or when a hidden width exceeds 64, a leaky_relu slope 1, or
+  // omega or beta is zero. sine: right for |omega z| < 1e7, far beyond what float can resolve.
   explicit PackedMlp(Mlp const& net);
   ~PackedMlp();
   PackedMlp(PackedMlp&&) noexcept;
@@ -49,6 +50,10 @@ void sdf_forward_gradient(Queue const& queue, PackedMlp const& net, Span<const f
                           Span<const Vec3f> point, Span<const int> row, Span<float> phi, Span<Vec3f> gradient);
 
 // Name of the instruction set in use ("avx512", "avx2", "generic"). SCREE_ISA in the environment overrides the choice.
+// The choice falls when a PackedMlp is made. Throws std::invalid_argument when this CPU does not offer it.
 std::string sdf_isa();
+
+// All that this CPU offers, best first.
+std::vector<std::string> sdf_isas();
 
 }  // namespace scree

@@ -1,3 +1,9 @@
 # Sources of the signed distance evaluators. The ISA files carry their own flags; the choice falls at run time.
-set(SCREE_SDF_SOURCES sdf/mlp.cpp)
+set(SCREE_SDF_SOURCES sdf/mlp.cpp sdf/mlp_cpu.cpp sdf/mlp_cpu_generic.cpp)
 set(SCREE_SDF_HEADERS sdf/analytic.h sdf/analytic.inl.h sdf/superellipsoid.h sdf/mlp.h sdf/sdf_batch.h)
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+  list(APPEND SCREE_SDF_SOURCES sdf/mlp_cpu_avx2.cpp sdf/mlp_cpu_avx512.cpp)
+  set_source_files_properties(sdf/mlp_cpu_avx2.cpp PROPERTIES COMPILE_OPTIONS "-mavx2;-mfma")
+  # GCC 12 warns of its own _mm512_undefined inside the intrinsics' header.
+  set_source_files_properties(sdf/mlp_cpu_avx512.cpp PROPERTIES COMPILE_OPTIONS "-mavx512f;-mfma;-Wno-maybe-uninitialized")
+endif()

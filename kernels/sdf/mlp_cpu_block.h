@@ -1,0 +1,294 @@
+// mlp_cpu_block.h: the fused network on one block of points, as a template over the vector type of an ISA.
+// Points sit in SIMD lanes. A register tile is `vectors` vectors of points times `panel` neurons: AVX2 3 x 4 = 12
+// accumulators, 3 loads and 4 broadcasts for 12 FMA, all 16 registers in use. Every lane runs the same operations in
+// the same order whatever its neighbours are, hence the same bits at every position.
+// Included by the ISA files only, which define a vector type V in a namespace of their own:
+//   V::size, load, store, broadcast (from memory), constant (a literal), fma(a, b, c) = a b + c, operators + - *,
+//   maximum(a, b) (b when one is NaN), positive(s, a, b) = s > 0 ? a : b, flip_odd(v, t) = v with its sign flipped
+//   where the lowest bit of t is set, exponent_shift(v, t) = v * 2^(low bits of t), divide(a, b).
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "kernels/sdf/mlp_cpu.h"
+
+#define SCREE_INLINE inline __attribute__((always_inline))
+
+namespace scree::sdf_cpu {
+namespace {  // one private copy for each ISA file: its flags must not leak
+
+// t = v + magic leaves round(v) in the low mantissa bits, for |v| < 2^22.
+constexpr float magic = 12582912.0f;  // 1.5 * 2^23
+
+// h = max(z, slope z). The sign of h says which branch was taken, so the backward pass remembers h itself.
+template <class V>
+struct LeakyRelu {
+  static constexpr bool remembers_value = true;
+  V slope;
+  explicit SCREE_INLINE LeakyRelu(PackedView const& net) : slope(V::broadcast(net.slope)) {}
+  SCREE_INLINE V value(V z) const { return V::maximum(slope * z, z); }
+  SCREE_INLINE V value_and_record(V z, V& record) const { return record = value(z); }
+  SCREE_INLINE V backward(V g, V record) const { return V::positive(record, g, slope * g); }
+};
+
+// h = sin(pi z); omega / pi is folded into the weights, which makes the range reduction z - round(z) exact.
+// Polynomials: least-maximum fits on |f| <= 1/2, absolute errors 3e-9 (sine) and 5e-8 (cosine); with float rounding
+// 1.8e-7. The record is cos(pi z); the backward weights carry omega.
+template <class V>
+struct Sine {
+  static constexpr bool remembers_value = false;
+  explicit SCREE_INLINE Sine(PackedView const&) {}
+  static SCREE_INLINE V sine_of(V f, V f2, V t) {
+    V p = V::constant(0.0772201281f);
+    p = V::fma(p, f2, V::constant(-0.598045174f));
+    p = V::fma(p, f2, V::constant(2.55003138f));
+    p = V::fma(p, f2, V::constant(-5.16770688f));
+    p = V::fma(p, f2, V::constant(3.14159258f));
+    return V::flip_odd(p * f, t);
+  }
+  SCREE_INLINE V value(V z) const {
+    V const t = z + V::constant(magic);
+    V const f = z - (t - V::constant(magic));
+    return sine_of(f, f * f, t);
+  }
+  SCREE_INLINE V value_and_record(V z, V& record) const {
+    V const t = z + V::constant(magic);
+    V const f = z - (t - V::constant(magic));
+    V const f2 = f * f;
+    V p = V::constant(0.220080616f);
+    p = V::fma(p, f2, V::constant(-1.33209385f));
+    p = V::fma(p, f2, V::constant(4.05845134f));
+    p = V::fma(p, f2, V::constant(-4.93479552f));
+    p = V::fma(p, f2, V::constant(1.0f));
+    record = V::flip_odd(p, t);
+    return sine_of(f, f2, t);
+  }
+  SCREE_INLINE V backward(V g, V record) const { return g * record; }
+};
+
+// h = log(1 + exp(z)) = max(z, 0) + log1p(u), u = exp(-|z|); beta is folded into first and last weights.
+// exp: Cody-Waite reduction and the polynomial of Cephes (Moshier 1992, expf). log1p(u) = 2 atanh(u / (2 + u)), fit in
+// the square, error 8e-9. The record is the logistic function.
+template <class V>
+struct Softplus {
+  static constexpr bool remembers_value = false;
+  explicit SCREE_INLINE Softplus(PackedView const&) {}
+  static SCREE_INLINE V exp_negative(V x) {  // x <= 0
+    x = V::maximum(V::constant(-87.0f), x);
+    V const t = V::fma(x, V::constant(1.44269504f), V::constant(magic));
+    V const n = t - V::constant(magic);
+    V r = V::fma(n, V::constant(-0.693359375f), x);
+    r = V::fma(n, V::constant(2.12194440e-4f), r);
+    V p = V::constant(1.9875691500e-4f);
+    p = V::fma(p, r, V::constant(1.3981999507e-3f));
+    p = V::fma(p, r, V::constant(8.3334519073e-3f));
+    p = V::fma(p, r, V::constant(4.1665795894e-2f));
+    p = V::fma(p, r, V::constant(1.6666665459e-1f));
+    p = V::fma(p, r, V::constant(5.0000001201e-1f));
+    return V::exponent_shift(V::fma(p, r * r, r + V::constant(1.0f)), t);
+  }
+  SCREE_INLINE V value_and_record(V z, V& record) const {
+    V const one = V::constant(1.0f);
+    V const u = exp_negative(V::positive(z, V::constant(0.0f) - z, z));
+    V const s = V::divide(u, u + V::constant(2.0f));
+    V const s2 = s * s;
+    V p = V::constant(0.244249007f);
+    p = V::fma(p, s2, V::constant(0.213899628f));
+    p = V::fma(p, s2, V::constant(0.286210419f));
+    p = V::fma(p, s2, V::constant(0.399986782f));
+    p = V::fma(p, s2, V::constant(0.666666795f));
+    p = V::fma(p, s2, V::constant(2.0f));
+    record = V::divide(V::positive(z, one, u), one + u);
+    return V::fma(p, s, V::maximum(V::constant(0.0f), z));
+  }
+  SCREE_INLINE V value(V z) const {
+    V unused;
+    return value_and_record(z, unused);
+  }
+  SCREE_INLINE V backward(V g, V record) const { return g * record; }
+};
+
+template <class V>
+constexpr int lanes = V::vectors* V::size;
+
+// The register tile: sum[p][v] += panel[k][p] * in[k][v] over k, in the order of k.
+template <class V, int P>
+SCREE_INLINE void accumulate(V (&sum)[P][V::vectors], int depth, float const* panel, float const* in) {
+  for (int k = 0; k < depth; ++k, panel += P, in += lanes<V>) {
+    V x[V::vectors];
+#pragma GCC unroll 8
+    for (int v = 0; v < V::vectors; ++v) x[v] = V::load(in + v * V::size);
+#pragma GCC unroll 16
+    for (int p = 0; p < P; ++p) {
+      V const w = V::broadcast(panel[p]);
+#pragma GCC unroll 8
+      for (int v = 0; v < V::vectors; ++v) sum[p][v] = V::fma(w, x[v], sum[p][v]);
+    }
+  }
+}
+
+// One hidden layer. `bias`: a number a neuron, or with mixed rows a row of lanes a neuron. `record` is null or what
+// the backward pass will need; with Act::remembers_value that is `out` itself.
+template <class V, class Act, bool mixed, bool recording>
+SCREE_INLINE void hidden_layer(Act const& act, int depth, int neurons, float const* panel, float const* bias,
+                               float const* in, float* out, float* record) {
+  constexpr int P = V::panel;
+  for (int j = 0; j < neurons; j += P, panel += depth * P) {
+    V sum[P][V::vectors];
+#pragma GCC unroll 16
+    for (int p = 0; p < P; ++p)
+#pragma GCC unroll 8
+      for (int v = 0; v < V::vectors; ++v)
+        sum[p][v] = mixed ? V::load(bias + (j + p) * lanes<V> + v * V::size) : V::broadcast(bias[j + p]);
+    accumulate<V, P>(sum, depth, panel, in);
+#pragma GCC unroll 16
+    for (int p = 0; p < P; ++p)
+#pragma GCC unroll 8
+      for (int v = 0; v < V::vectors; ++v) {
+        int const at = (j + p) * lanes<V> + v * V::size;
+        if constexpr (recording && !Act::remembers_value) {
+          V kept;
+          V::store(out + at, act.value_and_record(sum[p][v], kept));
+          V::store(record + at, kept);
+        } else {
+          V::store(out + at, act.value(sum[p][v]));
+        }
+      }
+  }
+}
+
+// phi = last weights . h + bias, as four partial sums over k mod 4: one chain would wait for the FMA latency.
+template <class V>
+SCREE_INLINE void last_layer(PackedView const& net, float const* in, float* phi) {
+  V sum[4][V::vectors];
+#pragma GCC unroll 4
+  for (int p = 0; p < 4; ++p)
+#pragma GCC unroll 8
+    for (int v = 0; v < V::vectors; ++v) sum[p][v] = V::constant(0.0f);
+  for (int k = 0; k < net.padded[net.hidden]; k += 4)
+#pragma GCC unroll 4
+    for (int p = 0; p < 4; ++p) {
+      V const w = V::broadcast(net.last_forward[k + p]);
+#pragma GCC unroll 8
+      for (int v = 0; v < V::vectors; ++v)
+        sum[p][v] = V::fma(w, V::load(in + (k + p) * lanes<V> + v * V::size), sum[p][v]);
+    }
+#pragma GCC unroll 8
+  for (int v = 0; v < V::vectors; ++v)
+    V::store(phi + v * V::size, ((sum[0][v] + sum[1][v]) + (sum[2][v] + sum[3][v])) + V::broadcast(net.last_bias));
+}
+
+// d phi / d z of the layer below, over a panel of its neurons: sum over the outputs, times the activation's slope.
+template <class V, class Act>
+SCREE_INLINE void backward_layer(Act const& act, int depth, int neurons, float const* panel, float const* in,
+                                 float const* record, float* out) {
+  constexpr int P = V::panel;
+  for (int j = 0; j < neurons; j += P, panel += depth * P) {
+    V sum[P][V::vectors];
+#pragma GCC unroll 16
+    for (int p = 0; p < P; ++p)
+#pragma GCC unroll 8
+      for (int v = 0; v < V::vectors; ++v) sum[p][v] = V::constant(0.0f);
+    accumulate<V, P>(sum, depth, panel, in);
+#pragma GCC unroll 16
+    for (int p = 0; p < P; ++p)
+#pragma GCC unroll 8
+      for (int v = 0; v < V::vectors; ++v) {
+        int const at = (j + p) * lanes<V> + v * V::size;
+        V::store(out + at, act.backward(sum[p][v], V::load(record + at)));
+      }
+  }
+}
+
+// Coordinates (and bias, where rows differ) from points to lanes; the last point fills the tail.
+template <class V>
+SCREE_INLINE void gather(PackedView const& net, BlockJob const& job, bool mixed, float* coordinate, float* bias) {
+  for (int i = 0; i < lanes<V>; ++i) {
+    int const from = i < job.count ? i : job.count - 1;
+    for (int c = 0; c < 3; ++c) coordinate[c * lanes<V> + i] = job.point[3 * from + c];
+    if (!mixed) continue;
+    float const* row = job.bias_rows + static_cast<long>(job.row[from]) * net.padded[1];
+    for (int j = 0; j < net.padded[1]; ++j) bias[j * lanes<V> + i] = row[j];
+  }
+}
+
+SCREE_INLINE bool rows_differ(BlockJob const& job) {
+  if (!job.row) return false;
+  int different = 0;
+  for (int i = 1; i < job.count; ++i) different |= job.row[i] ^ job.row[0];
+  return different != 0;
+}
+
+SCREE_INLINE int widest(PackedView const& net) {
+  int w = 0;
+  for (int l = 1; l <= net.hidden; ++l) w = net.padded[l] > w ? net.padded[l] : w;
+  return w;
+}
+
+// Scratch in rows of lanes: 3 coordinates | mixed bias | two activation buffers | one record a hidden layer.
+template <class V, class Act, bool with_gradient>
+void evaluate_block(PackedView const& net, BlockJob const& job) {
+  Act const act(net);
+  int const buffer = widest(net) * lanes<V>;
+  float* const coordinate = job.scratch;
+  float* const bias = coordinate + 3 * lanes<V>;
+  float* const ping[2] = {bias + buffer, bias + 2 * buffer};
+  float* const records = bias + 3 * buffer;
+  bool const mixed = rows_differ(job);
+  gather<V>(net, job, mixed, coordinate, bias);
+
+  constexpr bool in_record = with_gradient && Act::remembers_value;  // the record doubles as the activations
+  float const* in = coordinate;
+  for (int l = 0; l < net.hidden; ++l) {
+    float* const record = with_gradient ? records + l * buffer : nullptr;
+    float* const out = in_record ? record : ping[l & 1];
+    int const depth = net.width[l], neurons = net.padded[l + 1];
+    if (l == 0 && mixed)
+      hidden_layer<V, Act, true, with_gradient>(act, depth, neurons, net.forward[0], bias, in, out, record);
+    else
+      hidden_layer<V, Act, false, with_gradient>(
+          act, depth, neurons, net.forward[l],
+          l > 0 ? net.bias[l] : job.bias_rows + (job.row ? static_cast<long>(job.row[0]) * net.padded[1] : 0), in, out,
+          record);
+    in = out;
+  }
+  last_layer<V>(net, in, coordinate);  // coordinates are no longer needed
+  for (int i = 0; i < job.count; ++i) job.phi[i] = coordinate[i];
+
+  if constexpr (with_gradient) {
+    float const* record = records + (net.hidden - 1) * buffer;
+    float* g = ping[0];
+    for (int k = 0; k < net.padded[net.hidden]; ++k) {
+      V const w = V::broadcast(net.last_backward[k]);
+      for (int at = k * lanes<V>; at < (k + 1) * lanes<V>; at += V::size)
+        V::store(g + at, act.backward(w, V::load(record + at)));
+    }
+    for (int l = net.hidden - 1; l > 0; --l) {
+      float* const below = g == ping[0] ? ping[1] : ping[0];
+      backward_layer<V>(act, net.width[l + 1], net.padded[l], net.backward[l], g, records + (l - 1) * buffer, below);
+      g = below;
+    }
+    V sum[3][V::vectors];
+    for (auto& row : sum)
+      for (V& s : row) s = V::constant(0.0f);
+    accumulate<V, 3>(sum, net.width[1], net.backward[0], g);
+    for (int c = 0; c < 3; ++c)
+      for (int v = 0; v < V::vectors; ++v) V::store(coordinate + c * lanes<V> + v * V::size, sum[c][v]);
+    for (int i = 0; i < job.count; ++i)
+      for (int c = 0; c < 3; ++c) job.gradient[3 * i + c] = coordinate[c * lanes<V> + i];
+  }
+}
+
+// The table of an ISA; the order is that of enum Activation.
+template <class V>
+constexpr Isa make_isa(char const* name) {
+  return {
+      name,
+      lanes<V>,
+      V::panel,
+      {evaluate_block<V, LeakyRelu<V>, false>, evaluate_block<V, Sine<V>, false>,
+       evaluate_block<V, Softplus<V>, false>},
+      {evaluate_block<V, LeakyRelu<V>, true>, evaluate_block<V, Sine<V>, true>, evaluate_block<V, Softplus<V>, true>}};
+}
+
+}  // namespace
+}  // namespace scree::sdf_cpu
