@@ -12,6 +12,7 @@
 #include <set>
 
 #include "core/nearest_name.h"
+#include "shapes/analytic_shapes.h"
 
 namespace scree {
 namespace {
@@ -154,54 +155,24 @@ void Checker::touching_pairs() {
   }
 }
 
-// "kind:number:number..." of a built-in shape: how many numbers it takes; -1: no such built-in.
-int built_in_numbers(std::string const& kind) {
-  if (kind == "sphere") return 0;
-  if (kind == "ellipsoid" || kind == "box") return 3;
-  if (kind == "superellipsoid") return 4;
-  return -1;
-}
-
-std::vector<std::string> split_colons(std::string const& text) {
-  std::vector<std::string> parts(1);
-  for (char const ch : text) {
-    if (ch == ':')
-      parts.emplace_back();
-    else
-      parts.back() += ch;
-  }
-  return parts;
-}
-
-// "" when `parts` (kind, numbers) is a valid built-in shape, else what is wrong.
-std::string built_in_problem(std::vector<std::string> const& parts) {
-  int const wanted = built_in_numbers(parts[0]);
-  if (static_cast<int>(parts.size()) != wanted + 1)
-    return fmt::format("'{}' takes {} numbers after it, not {}", parts[0], wanted, parts.size() - 1);
-  for (std::size_t i = 1; i < parts.size(); ++i) {
-    double value = 0;
-    auto const [end, error] = std::from_chars(parts[i].data(), parts[i].data() + parts[i].size(), value);
-    bool const is_number = error == std::errc() && end == parts[i].data() + parts[i].size();
-    if (!is_number || !(value > 0) || !std::isfinite(value)) return fmt::format("'{}' must be a number > 0", parts[i]);
-    if (i == 4 && (value < 0.1 || value > 1.9)) return fmt::format("exponent {} must lie in 0.1 ... 1.9", parts[i]);
-  }
-  return "";
-}
-
 void Checker::shapes(std::string const& key, GrainsCase const& g) {
   if (g.shapes.empty()) fail(key + ".shapes", "must name at least one shape, e.g. \"sphere\" or \"grains:ballast/*\"");
   for (std::string const& shape : g.shapes) {
-    std::vector<std::string> const parts = split_colons(shape);
-    if (built_in_numbers(parts[0]) >= 0) {
-      std::string const problem = built_in_problem(parts);
-      if (!problem.empty()) fail(key + ".shapes", fmt::format("'{}': {}", shape, problem));
-    } else if (parts.size() == 2) {
-      known(key + ".shapes", parts[0], library_, "library");
+    std::size_t const colon = shape.find(':');
+    if (is_builtin_shape(shape)) {
+      try {
+        builtin_shape(shape);
+      } catch (std::invalid_argument const& error) {
+        fail(key + ".shapes", error.what());
+      }
+    } else if (colon != std::string::npos && shape.find(':', colon + 1) == std::string::npos) {
+      known(key + ".shapes", shape.substr(0, colon), library_, "library");
     } else {
-      std::vector<std::string> words{"sphere", "ellipsoid", "superellipsoid", "box"};
-      fail(key + ".shapes", fmt::format("unknown shape '{}'{}; write \"library:pattern\" or a built-in: sphere, "
-                                        "ellipsoid:a:b:c, superellipsoid:a:b:c:exponent, box:a:b:c",
-                                        shape, did_you_mean(parts[0], words)));
+      std::vector<std::string> const words{"sphere", "ellipsoid", "superellipsoid", "box"};
+      fail(key + ".shapes",
+           fmt::format("unknown shape '{}'{}; write \"library:pattern\" or a built-in: sphere, ellipsoid:a:b:c, "
+                       "superellipsoid:a:b:c:exponent, box:a:b:c",
+                       shape, did_you_mean(shape.substr(0, colon), words)));
     }
   }
 }
