@@ -21,29 +21,31 @@ SCREE_HD inline double sphere_distance(double radius, Vec3 x, Vec3* gradient) {
   return radius - r;
 }
 
-// Closest point of an ellipsoid by the secular equation |p(t)| = 1, p_i = a_i x_i / (t + a_i^2) (Eberly, "Distance from
-// a point to an ellipsoid"), Newton on 1/|p| - 1, which is nearly linear and converges from the left (More, Sorensen
-// 1983). A floor on |x_i| removes the degenerate interior cases at an error of 1e-13 of the size.
+// Closest point of an ellipsoid by the secular equation |p(t)| = 1, p_i = a_i x_i / (t + a_i^2 - a_min^2) (Eberly,
+// "Distance from a point to an ellipsoid"; t counted from the pole, so that nothing cancels near it), Newton on
+// 1/|p| - 1, which is nearly linear and converges from the left (More, Sorensen 1983). A floor on |x_i| removes the
+// degenerate interior cases at an error of 1e-13 of the size.
 SCREE_HD inline double ellipsoid_distance(Vec3 a, Vec3 x, Vec3* gradient) {
-  Vec3 y = absolute(x);
-  double t = -1e300;
+  double const least = a.x < a.y ? (a.x < a.z ? a.x : a.z) : (a.y < a.z ? a.y : a.z);
+  Vec3 y = absolute(x), pole;
+  double t = 0;
   for (int i = 0; i < 3; ++i) {
     y[i] = clamp_min(y[i], 1e-13 * a[i]);
-    t = clamp_min(t, -a[i] * a[i] + a[i] * y[i]);
+    pole[i] = (a[i] - least) * (a[i] + least);
+    t = clamp_min(t, a[i] * y[i] - pole[i]);
   }
   Vec3 p;
   for (int iteration = 0; iteration < 60; ++iteration) {
     double length2 = 0, slope = 0;  // slope = -d(length2)/dt / 2
     for (int i = 0; i < 3; ++i) {
-      double const s = 1 / (t + a[i] * a[i]);
+      double const s = 1 / (t + pole[i]);
       p[i] = a[i] * y[i] * s;
       length2 += p[i] * p[i];
       slope += p[i] * p[i] * s;
     }
-    double const length = std::sqrt(length2);
-    double const step = length2 / slope * (length - 1);
+    double const step = length2 / slope * (std::sqrt(length2) - 1);
     t += step;
-    if (!(std::fabs(step) > 1e-16 * (std::fabs(t) + a.x * a.x))) break;
+    if (!(std::fabs(step) > 4e-16 * t)) break;
   }
   Vec3 const closest = multiply(a, p);
   Vec3 const n = normalized(divide(p, a));  // outward normal of x^2/a^2 + ... = 1 at `closest`

@@ -1,0 +1,78 @@
+// contact_test.cpp: restitution curves, transport of the tangential history, the spring that slides.
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include "kernels/contact_laws.h"
+#include "kernels/restitution.h"
+#include "kernels/tangential.h"
+
+namespace scree {
+namespace {
+
+TEST(Restitution, NodesFollowTheDesignsTable) {
+  // Design physics.md section 2, three digits given.
+  double const table[][2] = {{.1, .726}, {.2, .556}, {.3, .440}, {.4, .357}, {.5, .296},
+                             {.6, .249}, {.7, .213}, {.8, .184}, {1.0, .141}};
+  for (auto const& [zeta, e] : table) EXPECT_NEAR(restitution_of(zeta, DampingPath::nodes), e, 6e-4) << zeta;
+  EXPECT_NEAR(restitution_of(0, DampingPath::nodes), 1, 1e-6);
+}
+
+TEST(Restitution, InverseReturnsTheRatio) {
+  for (DampingPath path : {DampingPath::nodes, DampingPath::sphere})
+    for (double zeta : {0.05, 0.3, 0.7, 1.5})
+      EXPECT_NEAR(damping_ratio_for(restitution_of(zeta, path), path), zeta, 1e-4);
+  EXPECT_EQ(damping_ratio_for(1, DampingPath::nodes), 0);
+  for (double e : {0.0, -0.1, 1.1}) EXPECT_THROW(damping_ratio_for(e, DampingPath::nodes), std::invalid_argument);
+}
+
+TEST(WinklerLaw, PressureAndSlopeAreDerivativesOfTheEnergy) {
+  WinklerLaw const law{3e9};
+  WinklerSphere const sphere{3e9, 0.02};
+  double const x = 1e-4, h = 1e-8;
+  EXPECT_NEAR((law.energy(x + h) - law.energy(x - h)) / (2 * h) / law.pressure(x), 1, 1e-8);
+  EXPECT_NEAR((law.pressure(x + h) - law.pressure(x - h)) / (2 * h) / law.slope(x), 1, 1e-8);
+  EXPECT_NEAR((sphere.energy(x + h) - sphere.energy(x - h)) / (2 * h) / sphere.force(x), 1, 1e-7);
+  EXPECT_NEAR((sphere.force(x + h) - sphere.force(x - h)) / (2 * h) / sphere.stiffness(x), 1, 1e-7);
+  // The case file's k_n: secant stiffness of two equal spheres at the reference overlap.
+  double const d = 0.1, k = 2e6, at = 0.01 * d;
+  EXPECT_NEAR((WinklerSphere{winkler_modulus(k, d, at), d / 4}.force(at) / at), k, 1e-6 * k);
+}
+
+// Validation row 7b: a stuck pair turned rigidly 2.25 times about its normal and about a tangent.
+TEST(Tangential, HistoryTurnsWithThePairAndKeepsItsLength) {
+  double const turns = 2.25 * 2 * 3.141592653589793;
+  int const steps = 9000;
+  for (Vec3 axis : {Vec3{0, 0, 1}, Vec3{0, 1, 0}, normalized(Vec3{1, 2, 3})}) {
+    Vec3 n{0, 0, 1}, xi{1e-4, 0, 0};
+    Vec3 const start = xi, start_n = n;
+    for (int i = 1; i <= steps; ++i) {
+      n = to_matrix(quat_from_rotation_vector(axis * (turns * i / steps))) * start_n;
+      xi = transport(xi, axis * (turns / steps), n);
+    }
+    Vec3 const expected = to_matrix(quat_from_rotation_vector(axis * turns)) * start;
+    EXPECT_NEAR(norm(xi) / norm(start), 1, 1e-6);
+    EXPECT_LT(norm(xi - expected) / norm(start), 1e-6);
+    EXPECT_NEAR(dot(xi, n) / norm(start), 0, 1e-9);
+  }
+}
+
+TEST(Tangential, SpringSticksThenSlides) {
+  double const dt = 1e-3, limit = 1e-4;
+  Vec3 const v{0.01, 0, 0};
+  Vec3 xi;
+  double lost = 0;
+  for (int i = 0; i < 100; ++i) {
+    TangentialResult const t = slide(xi, v, dt, 0, limit);
+    xi = t.xi;
+    lost += t.loss;
+  }
+  EXPECT_DOUBLE_EQ(xi.x, limit);
+  // Travel beyond the stick range slides at the limit: loss = limit * (travel - limit).
+  EXPECT_NEAR(lost, limit * (100 * dt * v.x - limit), 1e-15);
+  // With a dashpot the traction never passes the limit.
+  EXPECT_LE(norm(slide(xi, v, dt, 10, limit).traction), limit * (1 + 1e-12));
+  EXPECT_EQ(norm(slide({}, v, dt, 0, 0).xi), 0);
+}
+
+}  // namespace
+}  // namespace scree
