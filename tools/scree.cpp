@@ -1,0 +1,154 @@
+// scree.cpp: the engine's program: run, plan, check, info, render, export.
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <functional>
+#include <iostream>
+#include <new>
+#include <system_error>
+
+#include "core/case.h"
+#include "kernels/sdf/sdf_batch.h"
+#include "tools/scree_commands.h"
+
+namespace {
+
+using namespace scree;
+
+std::string version() {
+  return fmt::format("scree {} (sdf kernels: {}, CUDA: {}, mesh tools: {}, training: {})", SCREE_VERSION, sdf_isa(),
+                     SCREE_CUDA_PART, SCREE_MESH_PART, SCREE_TRAINING_PART);
+}
+
+// <prefix>/bin/scree -> <prefix>/share/scree
+std::filesystem::path share_folder() {
+  std::error_code error;
+  std::filesystem::path const program = std::filesystem::read_symlink("/proc/self/exe", error);
+  return error ? std::filesystem::path() : program.parent_path().parent_path() / "share" / "scree";
+}
+
+void add_case_options(CLI::App& command, CaseArguments& arguments) {
+  command.add_option("case", arguments.file, "Case file (TOML)")->required();
+  command.add_option("--set", arguments.overrides, "Override a key: time.end=2, grains.mix.count=50; repeatable")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+  command.add_option("--device", arguments.device, "cpu, cuda or auto")
+      ->check(CLI::IsMember({"cpu", "cuda", "auto"}))
+      ->capture_default_str();
+  command.add_option("--threads", arguments.threads, "CPU threads (default: all cores)")->check(CLI::Range(1, 4096));
+  arguments.share = share_folder();
+}
+
+void add_run(CLI::App& app, RunArguments& a, std::function<int()>& chosen) {
+  CLI::App* const c = app.add_subcommand("run", "Run a case");
+  add_case_options(*c, a.scene);
+  c->add_option("-o,--output", a.output, "Output folder (default: <case>.out)");
+  c->add_flag("--force", a.force, "Replace the results of an earlier run in the output folder");
+  c->add_flag("-q,--quiet", a.quiet, "No progress, only warnings and the final summary");
+  c->callback([&] { chosen = [&] { return run_command(a); }; });
+}
+
+void add_plan(CLI::App& app, CaseArguments& a, std::function<int()>& chosen) {
+  CLI::App* const plan = app.add_subcommand("plan", "Print stages, law, memory and time step of a case");
+  add_case_options(*plan, a);
+  plan->callback([&] { chosen = [&] { return plan_command(a); }; });
+}
+
+void add_check(CLI::App& app, CaseArguments& a, std::function<int()>& chosen) {
+  CLI::App* const check = app.add_subcommand("check", "Check a case and the model files it names");
+  add_case_options(*check, a);
+  check->callback([&] { chosen = [&] { return check_command(a); }; });
+}
+
+struct InfoArguments {
+  std::filesystem::path file;
+  bool recover = false;
+};
+
+void add_info(CLI::App& app, InfoArguments& a, std::function<int()>& chosen) {
+  CLI::App* const c = app.add_subcommand("info", "Describe a results or model file");
+  c->add_option("file", a.file, "results.h5 or model.h5")->required();
+  c->add_flag("--recover", a.recover, "Read the unfinished file of a run that was killed");
+  c->callback([&] { chosen = [&] { return info_command(a.file, a.recover); }; });
+}
+
+void add_render(CLI::App& app, RenderArguments& a, std::function<int()>& chosen) {
+  CLI::App* const c = app.add_subcommand("render", "Draw a frame of a results file");
+  c->add_option("results", a.results, "results.h5")->required();
+  c->add_option("-o,--output", a.picture, "Picture to write (PNG)")->required();
+  c->add_option("--frame", a.frame, "Frame number; negative counts from the end")->capture_default_str();
+  c->add_option("--size", a.size, "Width x height in pixels")->capture_default_str();
+  c->add_option("--ids", a.ids, "Also write the number of the body seen at each pixel (16-bit PNG, 0: none)");
+  c->add_option("--threads", a.threads, "CPU threads (default: all cores)")->check(CLI::Range(1, 4096));
+  c->add_flag("--recover", a.recover, "Read the unfinished file of a run that was killed");
+  c->callback([&] { chosen = [&] { return render_command(a); }; });
+}
+
+void add_export(CLI::App& app, ExportArguments& a, std::function<int()>& chosen) {
+  CLI::App* const c = app.add_subcommand("export", "Write a results file for ParaView (PVD + VTP)");
+  c->add_option("results", a.results, "results.h5")->required();
+  c->add_option("-o,--output", a.folder, "Folder to write (default: paraview beside the results)");
+  c->add_flag("--recover", a.recover, "Read the unfinished file of a run that was killed");
+  c->callback([&] { chosen = [&] { return export_command(a); }; });
+}
+
+int complain(ExitCode code, std::string const& what) {
+  std::fflush(stdout);
+  fmt::print(stderr, "scree: error: {}\n", what);
+  return code;
+}
+
+int complain(InputError const& error) {
+  std::fflush(stdout);
+  if (error.problems.size() == 1) return complain(exit_bad_input, error.problems[0]);
+  fmt::print(stderr, "scree: {} errors:\n", error.problems.size());
+  for (std::string const& p : error.problems) fmt::print(stderr, "  {}\n", p);
+  return exit_bad_input;
+}
+
+// The one place where failures become exit codes.
+int guarded(std::function<int()> const& work) {
+  try {
+    return work();
+  } catch (InputError const& error) {
+    return complain(error);
+  } catch (DeviceError const& error) {
+    return complain(exit_device, error.what());
+  } catch (std::system_error const& error) {  // filesystem_error too
+    return complain(exit_file, error.what());
+  } catch (std::bad_alloc const&) {
+    return complain(exit_bad_input, "the case does not fit into this machine's memory");
+  } catch (std::invalid_argument const& error) {
+    return complain(exit_bad_input, error.what());
+  } catch (std::exception const& error) {
+    return complain(exit_file, error.what());
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"Scree: discrete elements whose surface is a signed distance field"};
+  app.set_version_flag("--version", version());
+  app.require_subcommand(1);
+  std::function<int()> chosen;
+  RunArguments run;
+  CaseArguments plan, check;
+  InfoArguments info;
+  RenderArguments render;
+  ExportArguments exported;
+  add_run(app, run, chosen);
+  add_plan(app, plan, chosen);
+  add_check(app, check, chosen);
+  add_info(app, info, chosen);
+  add_render(app, render, chosen);
+  add_export(app, exported, chosen);
+  try {
+    app.parse(argc, argv);
+  } catch (CLI::ParseError const& error) {
+    return app.exit(error) == 0 ? exit_ok : exit_bad_input;  // --help and --version come this way too
+  }
+  return guarded(chosen);
+}

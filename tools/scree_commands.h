@@ -1,0 +1,65 @@
+// scree_commands.h: the commands of the `scree` program; each returns the program's exit code.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace scree {
+
+enum ExitCode : int {
+  exit_ok = 0,
+  exit_watch = 1,         // a physics watch stopped the run; the state is written
+  exit_bad_input = 2,     // case, model, results file or usage
+  exit_device = 3,        // the device asked for is not there
+  exit_file = 4,          // a file or folder cannot be written or is in use
+  exit_interrupted = 130  // SIGINT or SIGTERM; the files are complete up to that moment
+};
+
+class DeviceError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+struct CaseArguments {
+  std::filesystem::path file;
+  std::vector<std::string> overrides;  // key=value
+  std::filesystem::path share;         // where installed libraries lie
+  std::string device = "auto";         // cpu, cuda, auto
+  int threads = 0;                     // 0: all cores
+};
+
+struct RunArguments {
+  CaseArguments scene;
+  std::filesystem::path output;  // empty: <case>.out in the current folder
+  bool force = false;
+  bool quiet = false;
+};
+
+struct RenderArguments {
+  std::filesystem::path results, picture, ids;  // ids: 16-bit PNG, body number + 1; empty: none
+  int frame = -1;
+  std::string size = "1280x960";
+  int threads = 0;
+  bool recover = false;
+};
+
+struct ExportArguments {
+  std::filesystem::path results, folder;  // folder empty: "paraview" beside the results
+  bool recover = false;
+};
+
+int run_command(RunArguments const& arguments);
+int plan_command(CaseArguments const& arguments);
+int check_command(CaseArguments const& arguments);
+int info_command(std::filesystem::path const& file, bool recover);
+int render_command(RenderArguments const& arguments);
+int export_command(ExportArguments const& arguments);
+
+// Threads to use, and the device check every command that computes goes through: `cuda` in a build without it throws
+// DeviceError; `auto` falls back to the CPU. `note` says what was chosen and why.
+int choose_threads(CaseArguments const& arguments, std::string* note = nullptr);
+
+}  // namespace scree

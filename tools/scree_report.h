@@ -1,0 +1,53 @@
+// scree_report.h: what a run tells while it goes and when it ends: progress, log, time per stage, energy ledger.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "core/simulation.h"
+
+namespace scree {
+
+// Messages go to the terminal and, with a time stamp, into run.log.
+class RunLog {
+ public:
+  explicit RunLog(std::filesystem::path const& file);  // throws std::system_error
+  void write(std::string const& line);                 // file only
+  void say(std::string const& line);                   // both
+
+ private:
+  std::ofstream file_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+// A bar on a terminal, plain lines when piped: at 1, 5 and 15 s, then every 30 s.
+class Progress {
+ public:
+  Progress(double end, bool quiet);  // end: simulated time [s]
+  void show(Simulation const& simulation);
+  void clear();  // before other output
+
+ private:
+  double elapsed() const;
+  std::string line(Simulation const& simulation) const;
+
+  double end_;
+  bool quiet_, terminal_, drawn_ = false;
+  std::chrono::steady_clock::time_point start_;
+  double next_ = 0;  // [s] of wall time
+  int shown_ = 0;
+};
+
+std::string duration(double seconds);     // "3:07", "1:02:03", "12.3 s"
+std::string grouped(std::int64_t count);  // "12 345 678"
+std::vector<StageRow> stage_rows(Profile const& profile);
+std::string stage_table(std::vector<StageRow> const& rows, double wall);
+std::string ledger_table(LedgerRow const& row);
+std::string stages_json(std::vector<StageRow> const& rows, Simulation const& simulation, int threads, double wall);
+
+}  // namespace scree

@@ -1,0 +1,138 @@
+// scree_show.cpp: the commands that look and do not step: plan, check, info, render, export.
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "core/case.h"
+#include "core/paraview.h"
+#include "core/results.h"
+#include "core/simulation.h"
+#include "shapes/file_container.h"
+#include "shapes/model_file.h"
+#include "tools/scree_commands.h"
+#include "tools/scree_report.h"
+
+namespace scree {
+namespace {
+
+namespace fs = std::filesystem;
+
+Simulation simulation_of(CaseArguments const& arguments, Case const& c) {
+  SimulationOptions options;
+  options.threads = choose_threads(arguments);
+  return Simulation(c, options);
+}
+
+// A certificate's figure; a negative one was not measured.
+std::string figure(double value) { return value < 0 ? "-" : fmt::format("{:.2e}", value); }
+
+void print_shapes(Library const& library) {
+  fmt::print("{:<32} {:<14} {:>8} {:>8} {:>9} {:>9} {:>9} {:>9}\n", "shape", "kind", "radius", "area", "mae", "max",
+             "normal95", "volume");
+  for (Shape const& s : library.shape) {
+    std::string const kind = s.is_net ? fmt::format("network {}", s.net) : "analytic";
+    fmt::print("{:<32} {:<14} {:>8.4f} {:>8.4f} {:>9} {:>9} {:>9} {:>9}\n", s.name, kind, s.bounding_radius, s.area,
+               figure(s.certificate.mae), figure(s.certificate.max), figure(s.certificate.normal_p95),
+               figure(s.certificate.volume_error));
+  }
+}
+
+void print_networks(Library const& library) {
+  for (std::size_t k = 0; k < library.net.size(); ++k) {
+    Mlp const& net = library.net[k];
+    fmt::print("network {}: widths {}, {} ({:g}), code of {} numbers\n", k, fmt::join(net.width, "-"),
+               to_string(net.activation), net.parameter, net.code_size());
+  }
+}
+
+void describe_model(fs::path const& file) {
+  Library const library = read_model(file);
+  fmt::print("{}: model file, {} shapes, {} networks; lengths in d of the equal-volume sphere, phi > 0 inside\n",
+             file.string(), library.shape.size(), library.net.size());
+  print_networks(library);
+  print_shapes(library);
+}
+
+void describe_results(fs::path const& file, bool recover) {
+  ResultsReader const reader(file, recover);
+  ResultsHeader const& h = reader.header();
+  fmt::print("{}: results file, {} bodies of {} shapes, {} walls, {} frames\n", file.string(), h.shape.size(),
+             h.shape_name.size(), h.wall.size(), reader.frames());
+  if (reader.frames() > 0) {
+    Frame const first = reader.frame(0), last = reader.frame(-1);
+    fmt::print("t {:g} ... {:g} s, step {} ... {}\n", first.time, last.time, grouped(first.step), grouped(last.step));
+  }
+  print_networks(h.library);
+  print_shapes(h.library);
+  std::vector<LedgerRow> const ledger = reader.ledger();
+  if (!ledger.empty()) fmt::print("{}", ledger_table(ledger.back()));
+  std::vector<StageRow> const stages = reader.stages();
+  double seconds = 0;
+  for (StageRow const& s : stages) seconds += s.seconds;
+  if (seconds > 0) fmt::print("{}", stage_table(stages, seconds));
+}
+
+bool is_model(fs::path const& file) {
+  try {
+    check_container(file, "scree.model", 1);
+    return true;
+  } catch (std::exception const&) {
+    return false;  // whatever it is, the results reader says it better
+  }
+}
+
+}  // namespace
+
+int plan_command(CaseArguments const& arguments) {
+  Case const c = load_case(arguments.file, arguments.overrides, arguments.share);
+  Plan const plan = simulation_of(arguments, c).plan();
+  fmt::print("{}: {} bodies, {} shapes, {} networks, up to {} nodes a grain\n", c.name, plan.bodies, plan.shapes,
+             plan.networks, plan.nodes_max);
+  fmt::print("stages   {}\n", fmt::join(plan.stages, " -> "));
+  fmt::print("effects  {}\n", plan.effects.empty() ? "none" : fmt::format("{}", fmt::join(plan.effects, ", ")));
+  fmt::print("law\n{}\n", plan.law);
+  fmt::print("step     {:.4g} s, {} steps to t = {:g} s\n", plan.step, grouped(plan.steps), c.time.end);
+  std::int64_t total = 0;
+  fmt::print("arrays\n");
+  for (Plan::Array const& a : plan.arrays) {
+    fmt::print("  {:<28} {:>16} bytes\n", a.name, grouped(a.bytes));
+    total += a.bytes;
+  }
+  fmt::print("  {:<28} {:>16} bytes\n", "together", grouped(total));
+  for (std::string const& note : plan.notes) fmt::print("note     {}\n", note);
+  return exit_ok;
+}
+
+int check_command(CaseArguments const& arguments) {
+  Case const c = load_case(arguments.file, arguments.overrides, arguments.share);
+  Plan const plan = simulation_of(arguments, c).plan();
+  fmt::print("{}: good: {} bodies of {} shapes\n", arguments.file.string(), plan.bodies, plan.shapes);
+  for (std::string const& note : plan.notes) fmt::print("note: {}\n", note);
+  return exit_ok;
+}
+
+int info_command(fs::path const& file, bool recover) {
+  if (is_model(file))
+    describe_model(file);
+  else
+    describe_results(file, recover);
+  return exit_ok;
+}
+
+int export_command(ExportArguments const& arguments) {
+  ResultsReader const reader(arguments.results, arguments.recover);
+  fs::path const folder = arguments.folder.empty() ? arguments.results.parent_path() / "paraview" : arguments.folder;
+  ParaviewOptions options;
+  options.frames_expected = std::max(1, reader.frames());
+  ParaviewWriter writer(folder, reader.header(), options);
+  for (int k = 0; k < reader.frames(); ++k) writer.write_frame(reader.frame(k));
+  writer.finish();
+  fmt::print("ParaView  {}\n", (folder / "scene.pvd").string());
+  return exit_ok;
+}
+
+}  // namespace scree
