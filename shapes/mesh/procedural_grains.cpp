@@ -6,13 +6,13 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <random>
 #include <stdexcept>
 
 #include "shapes/mesh/icosphere.h"
 #include "shapes/mesh/mesh_check.h"
 #include "shapes/mesh/mesh_measures.h"
 #include "shapes/mesh/mesh_normalise.h"
+#include "shapes/mesh/random.h"
 
 namespace scree {
 namespace {
@@ -26,22 +26,6 @@ Vec3 constexpr ellipsoid_axes[] = {{1.1, 1.05, 1}, {1.3, 1.1, 1}, {1.5, 1.25, 1}
 Vec3 constexpr sand_axes[] = {{1.1, 1.05, 1}, {1.25, 1.1, 1}, {1.4, 1.2, 1}, {1.7, 1.15, 1}, {2.7, 1, 0.75}};
 double constexpr sand_bend[] = {0, 0.3, 0, 0.3, 0.85};  // curvature of the bent long axis: the last one is a crescent
 double constexpr sand_lobes[] = {1, 1, 1, 1, 0.3};      // height of its bumps
-
-// std::mt19937_64 gives the same numbers everywhere, the distributions of <random> do not.
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : engine_(seed) {}
-  double uniform(double low, double high) {
-    return low + (high - low) * static_cast<double>(engine_() >> 11) * 0x1p-53;
-  }
-  Vec3 direction() {
-    double const z = uniform(-1, 1), angle = uniform(0, 2 * std::numbers::pi), r = std::sqrt(1 - z * z);
-    return {r * std::cos(angle), r * std::sin(angle), z};
-  }
-
- private:
-  std::mt19937_64 engine_;
-};
 
 // n directions about evenly spread: a golden spiral in a random pose, each then moved by up to `jitter`.
 std::vector<Vec3> spread_directions(int n, double jitter, Random& random) {

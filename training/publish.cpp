@@ -1,0 +1,70 @@
+// publish.cpp: from a trained network to a model library.
+// SPDX-License-Identifier: Apache-2.0
+#include "training/publish.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "shapes/normalise.h"
+
+namespace scree {
+namespace {
+
+// Principal moments of the normalised mesh: its axes are x, y, z.
+Vec3 principal_inertia(TriangleMesh const& mesh) {
+  Mat3 const inertia = mesh_mass(mesh).inertia;
+  return {inertia.row[0].x, inertia.row[1].y, inertia.row[2].z};
+}
+
+double largest_relative_error(Vec3 value, Vec3 truth) {
+  double error = 0;
+  for (int k = 0; k < 3; ++k) error = std::max(error, std::abs(value[k] / truth[k] - 1));
+  return error;
+}
+
+PublishReport publish_shape(Library& library, int index, Body const& body, PublishOptions const& options) {
+  NormaliseOptions normalise;
+  normalise.cells = options.cells;
+  normalise.threads = options.threads;
+  RawShape const raw = normalise_net(library, index, 1.1 * body.bounding_radius, normalise);
+  Shape& shape = library.shape[index];
+  Certificate& certificate = shape.certificate;
+  certificate.volume_error = std::abs(raw.volume * 6 / std::numbers::pi - 1);
+  certificate.inertia_error = largest_relative_error(raw.inertia, principal_inertia(body.mesh));
+  certificate.components = raw.components;
+  PublishReport report;
+  report.euler_characteristic = raw.euler_characteristic;
+  report.interior = certify(fast_phi(library, shape, options.threads), body, {raw.axes, raw.centroid, raw.diameter},
+                            options.points, options.seed + 7919 * (index + 1), options.threads, certificate);
+  return report;
+}
+
+}  // namespace
+
+Library publish(TrainedNet const& trained, std::vector<Body> const& bodies, PublishOptions const& options,
+                std::vector<PublishReport>* reports) {
+  if (trained.code.size() != bodies.size()) throw std::invalid_argument("publish: a code a body is needed");
+  Library library;
+  library.net.push_back(trained.net);
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    Shape shape;
+    shape.name = bodies[b].name;
+    shape.is_net = true;
+    shape.net = 0;
+    shape.code = trained.code[b];
+    shape.certificate.seed = static_cast<std::int64_t>(options.seed);
+    shape.certificate.source = bodies[b].source;
+    shape.certificate.source_hash = bodies[b].source_hash;
+    shape.certificate.made_with = trained.libraries;
+    library.shape.push_back(shape);
+  }
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    PublishReport const report = publish_shape(library, static_cast<int>(b), bodies[b], options);
+    if (reports) reports->push_back(report);
+  }
+  return library;
+}
+
+}  // namespace scree

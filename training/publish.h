@@ -1,0 +1,35 @@
+// publish.h: from a trained network to a model library: normalisation by phi's own zero set, measured certificates.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "shapes/shape.h"
+#include "training/certify.h"
+#include "training/dataset.h"
+#include "training/train.h"
+
+namespace scree {
+
+struct PublishOptions {
+  int points = 20000;      // of each measurement: shell, band, surface, interior
+  int cells = 64;          // grid cells across the ball in which the zero set is sought
+  std::uint64_t seed = 1;  // of the training: recorded; the test points are others than the training's
+  int threads = 2;
+};
+
+struct PublishReport {
+  int euler_characteristic = 0;  // of the zero set; 2: no handle, void or splinter
+  InteriorReport interior;
+};
+
+// One library with one network and a shape a body, in the bodies' order. Each shape is normalised from its own zero
+// set; the truth it is then measured against is the body's mesh, moved and scaled by the same transform. Volume and
+// inertia errors are those before. `reports` may be null. Throws std::runtime_error naming the body if its network is
+// no solid.
+Library publish(TrainedNet const& trained, std::vector<Body> const& bodies, PublishOptions const& options,
+                std::vector<PublishReport>* reports = nullptr);
+
+}  // namespace scree
