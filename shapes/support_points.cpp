@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "shapes/point_blocks.h"
+
 namespace scree {
 
 std::vector<Vec3> quasi_uniform_directions(int count, double twist) {
@@ -19,23 +21,34 @@ std::vector<Vec3> quasi_uniform_directions(int count, double twist) {
 }
 
 std::vector<int> extreme_points(std::vector<Vec3> const& point, std::vector<Vec3> const& direction) {
-  // Points far inside the bounding ball are never extreme; the loop is a plain scan over separate coordinates, which
-  // the compiler turns into SIMD.
-  int const n = static_cast<int>(point.size());
-  std::vector<double> x(n), y(n), z(n), h(n);
-  for (int i = 0; i < n; ++i) x[i] = point[i].x, y[i] = point[i].y, z[i] = point[i].z;
-  std::vector<int> best(direction.size(), -1);
+  PointBlocks const blocks = make_point_blocks(point, 32);
+  int const n_blocks = static_cast<int>(blocks.centre.size());
+  std::vector<int> extreme(direction.size(), -1);
+  std::vector<double> centre_height(n_blocks);
   for (std::size_t k = 0; k < direction.size(); ++k) {
     Vec3 const d = direction[k];
-    for (int i = 0; i < n; ++i) h[i] = d.x * x[i] + d.y * y[i] + d.z * z[i];
-    best[k] = n == 0 ? -1 : static_cast<int>(std::max_element(h.begin(), h.end()) - h.begin());
+    double best = -INFINITY;
+    int promising = 0;  // the block whose sphere reaches farthest is looked at first: it settles most others
+    for (int b = 0; b < n_blocks; ++b) {
+      centre_height[b] = dot(d, blocks.centre[b]) + blocks.radius[b];
+      if (centre_height[b] > centre_height[promising]) promising = b;
+    }
+    auto const scan = [&](int b) {
+      for (int i = blocks.first[b]; i < blocks.first[b + 1]; ++i) {
+        int const p = blocks.order[i];
+        double const h = dot(d, point[p]);
+        if (h > best || (h == best && p < extreme[k])) best = h, extreme[k] = p;
+      }
+    };
+    if (n_blocks > 0) scan(promising);
+    for (int b = 0; b < n_blocks; ++b)
+      if (b != promising && centre_height[b] >= best) scan(b);
   }
-  return best;
+  return extreme;
 }
 
 std::vector<Vec3> climb(PhiBatch const& phi, std::vector<Vec3> const& start, std::vector<Vec3> const& direction,
-                        double step) {
-  int constexpr rounds = 24;
+                        double step, int rounds) {
   int const n = static_cast<int>(start.size());
   std::vector<Vec3> best = start, gradient(n), trial(n), trial_gradient(n);
   std::vector<double> length(n, step), left(n);
@@ -62,6 +75,28 @@ std::vector<Vec3> climb(PhiBatch const& phi, std::vector<Vec3> const& start, std
     }
   }
   return best;
+}
+
+void sharpen_corners(PhiBatch const& phi, ZeroSet& set, int directions) {
+  int constexpr many = 5;  // of 3,000 directions: the normals at the vertex span more than a tenth of a radian
+  std::vector<Vec3> const direction = quasi_uniform_directions(directions);
+  std::vector<int> const top = extreme_points(set.mesh.vertex, direction);
+  std::vector<Vec3> sum(set.mesh.vertex.size());
+  std::vector<int> count(set.mesh.vertex.size(), 0);
+  for (std::size_t k = 0; k < direction.size(); ++k) sum[top[k]] += direction[k], ++count[top[k]];
+  std::vector<int> corner;
+  std::vector<Vec3> start, mean;
+  for (std::size_t v = 0; v < count.size(); ++v) {
+    if (count[v] < many) continue;
+    corner.push_back(static_cast<int>(v));
+    start.push_back(set.mesh.vertex[v]);
+    mean.push_back(normalized(sum[v]));
+  }
+  std::vector<Vec3> const summit = climb(phi, start, mean, set.cell);
+  for (std::size_t i = 0; i < corner.size(); ++i) {
+    set.mesh.vertex[corner[i]] = summit[i];
+    set.normal[corner[i]] = mean[i];
+  }
 }
 
 }  // namespace scree

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "kernels/base/vec.h"
+#include "shapes/phi_batch.h"
 
 namespace scree {
 
@@ -25,5 +25,33 @@ struct SurfaceNodes {
   double largest_gap = -1;           // to a plane over 1,000 directions [d]; -1: not measured
   double spacing = 0;                // typical: sqrt(area / n_surface) [d]
 };
+
+struct SurfaceNodeOptions {
+  bool measure_gap = true;  // fill in largest_gap; costs about a tenth of the whole
+};
+
+// Nodes of a normalised shape (uses its bounding radius, volume, area and Lipschitz bound). `phi` as from surface_phi.
+// n_surface is `count`, or a few less. Areas are the projected ones, |integral of n dA| over the node's cell, with the
+// cell's mean normal: on an edge a node has the bisecting normal, sum A n = 0 and sum A x.n = 3 V hold to rounding, and
+// the flat faces keep their areas. Deterministic and serial: call it for many shapes in parallel.
+// Throws std::runtime_error without a zero set, std::invalid_argument for count < 4.
+SurfaceNodes make_surface_nodes(PhiBatch const& phi, Shape const& shape, int count,
+                                SurfaceNodeOptions const& options = {});
+SurfaceNodes make_surface_nodes(Library const& library, Shape const& shape, int count,
+                                SurfaceNodeOptions const& options = {});
+
+// Largest blind gap of the surface nodes against a plane [d]: how much higher the surface reaches than its nodes, over
+// `directions` quasi-uniform directions. `dense`: points on phi = 0 about 2 `step` apart, refined by climbing.
+double largest_gap(PhiBatch const& phi, std::vector<Vec3> const& dense, double step, SurfaceNodes const& nodes,
+                   int directions = 1000);
+
+// At least `count` points of the surface, independent of any nodes, on edges and at the extreme points of 2,000
+// directions too (those carry no area): what overlap meters and certificates use.
+struct DenseSurface {
+  std::vector<Vec3> position;
+  std::vector<Vec3> normal;  // outward unit
+  std::vector<double> area;  // [d^2]
+};
+DenseSurface make_dense_surface(PhiBatch const& phi, Shape const& shape, int count);
 
 }  // namespace scree
