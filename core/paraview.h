@@ -19,7 +19,8 @@ struct ParaviewOptions {
 // frames/grains_<k>.vtp (every frame). The collections are rewritten with every frame: a killed run opens.
 // surfaces: cells carry body, shape, kind, material, group, replica, velocity [m/s]; coordinates are float [m].
 // grains: points carry these and spin [rad/s], orientation (w, x, y, z), diameter [m].
-// kind numbers the parts of the shapes' names before the first '/' or ':' in order of appearance: ballast/0 and ballast/1 share one.
+// kind numbers the parts of the shapes' names before the first '/' or ':' in order of appearance: ballast/0 and
+// ballast/1 share one.
 class ParaviewWriter {
  public:
   // Makes the folder and meshes every shape's zero set. Throws std::system_error naming what cannot be written.

@@ -115,7 +115,7 @@ std::string ledger_table(LedgerRow const& r) {
   std::string out = "energy ledger [J]\n";
   auto const row = [&](char const* name, double value) { out += fmt::format("  {:<44} {:>14.6e}\n", name, value); };
   row("kinetic", r.kinetic);
-  row("potential (from where it was inserted)", r.potential);
+  row("potential", r.potential);
   row("elastic, normal", r.elastic_normal);
   row("elastic, tangential", r.elastic_tangential);
   row("brought in by insertion", r.inserted);

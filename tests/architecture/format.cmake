@@ -6,5 +6,6 @@ execute_process(COMMAND ${CLANG_FORMAT} --dry-run --Werror ${sources} RESULT_VAR
 if(NOT status EQUAL 0)
   string(REGEX MATCHALL "[^\n]*: error: code should be clang-formatted" lines "${output}")
   list(JOIN lines "\n" text)
-  message(FATAL_ERROR "not formatted (run clang-format -i on them):\n${text}")
+  message("${text}")
+  message(FATAL_ERROR "not formatted: run clang-format -i on these files")
 endif()
