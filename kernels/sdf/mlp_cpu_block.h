@@ -113,6 +113,7 @@ constexpr int lanes = V::vectors* V::size;
 // The register tile: sum[p][v] += panel[k][p] * in[k][v] over k, in the order of k.
 template <class V, int P>
 SCREE_INLINE void accumulate(V (&sum)[P][V::vectors], int depth, float const* panel, float const* in) {
+#pragma GCC unroll 4
   for (int k = 0; k < depth; ++k, panel += P, in += lanes<V>) {
     V x[V::vectors];
 #pragma GCC unroll 8
