@@ -216,7 +216,9 @@ void CaseReader::unsupported(std::vector<std::string> const& keys) {
 void CaseReader::finish() {
   std::vector<std::string> supported = known_;
   std::sort(supported.begin(), supported.end());
-  for (auto const& [key, node] : node_->member) {
+  for (std::size_t i = 0; i < node_->key.size(); ++i) {
+    std::string const& key = node_->key[i];
+    CaseNode const& node = node_->element[i];
     if (contains(known_, key)) continue;
     problems_->place[path_of(key)] = {node.where, node.line};
     std::string const verdict =

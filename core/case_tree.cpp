@@ -9,8 +9,8 @@
 #include <charconv>
 #include <fstream>
 #include <iterator>
-#include <optional>
 #include <string_view>
+#include <utility>
 
 #include "core/case.h"
 #include "core/nearest_name.h"
@@ -25,7 +25,10 @@ CaseNode convert(toml::node const& node, std::string const& file) {
   out.where = file.empty() ? "--set" : fmt::format("{}:{}", file, out.line);
   if (auto const* table = node.as_table()) {
     out.kind = CaseNode::Kind::table;
-    for (auto const& [key, value] : *table) out.member.emplace_back(key.str(), convert(value, file));
+    for (auto const& [key, value] : *table) {
+      out.key.emplace_back(key.str());
+      out.element.push_back(convert(value, file));
+    }
   } else if (auto const* array = node.as_array()) {
     out.kind = CaseNode::Kind::array;
     for (toml::node const& value : *array) out.element.push_back(convert(value, file));
@@ -96,11 +99,19 @@ CaseNode* descend(CaseNode& node, std::string const& key, std::string const& wal
     if (CaseNode* const next = node.find(key)) return next;
     CaseNode made;
     made.where = "--set";
-    node.member.emplace_back(key, made);
-    return &node.member.back().second;
+    node.key.push_back(key);
+    node.element.push_back(made);
+    return &node.element.back();
   }
   problems.push_back(fmt::format("--set {}: '{}' is {} and has no keys", assignment, walked, to_string(node.kind)));
   return nullptr;
+}
+
+void remove(CaseNode& table, std::string const& name) {
+  auto const found = std::find(table.key.begin(), table.key.end(), name);
+  if (found == table.key.end()) return;
+  table.element.erase(table.element.begin() + (found - table.key.begin()));
+  table.key.erase(found);
 }
 
 std::vector<std::string> split(std::string const& path) {
@@ -116,12 +127,12 @@ std::vector<std::string> split(std::string const& path) {
 
 }  // namespace
 
-CaseNode const* CaseNode::find(std::string const& key) const {
-  auto const found = std::find_if(member.begin(), member.end(), [&](auto const& m) { return m.first == key; });
-  return found == member.end() ? nullptr : &found->second;
+CaseNode const* CaseNode::find(std::string const& name) const {
+  auto const found = std::find(key.begin(), key.end(), name);
+  return found == key.end() ? nullptr : &element[static_cast<std::size_t>(found - key.begin())];
 }
 
-CaseNode* CaseNode::find(std::string const& key) { return const_cast<CaseNode*>(std::as_const(*this).find(key)); }
+CaseNode* CaseNode::find(std::string const& name) { return const_cast<CaseNode*>(std::as_const(*this).find(name)); }
 
 char const* to_string(CaseNode::Kind kind) {
   switch (kind) {
@@ -176,7 +187,7 @@ void apply_override(CaseNode& root, std::string const& assignment, std::vector<s
   std::string const value = assignment.substr(equals + 1);
   bool const removes = value.find_first_not_of(' ') == std::string::npos;
   if (removes && node->kind == CaseNode::Kind::table) {
-    std::erase_if(node->member, [&](auto const& m) { return m.first == parts.back(); });
+    remove(*node, parts.back());
     return;
   }
   CaseNode* const leaf = descend(*node, parts.back(), walked, assignment, problems);

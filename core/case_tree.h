@@ -6,24 +6,23 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace scree {
 
 struct CaseNode {
   enum class Kind { table, array, string, integer, real, boolean, date } kind = Kind::table;
-  std::string where;                                     // "file:line" or "--set"
-  int line = 0;                                          // 0: from --set
-  std::vector<std::pair<std::string, CaseNode>> member;  // table, in order of appearance in the tree
-  std::vector<CaseNode> element;                         // array
-  std::string text;                                      // string
+  std::string where;              // "file:line" or "--set"
+  int line = 0;                   // 0: from --set
+  std::vector<CaseNode> element;  // of an array; the values of a table, in order of appearance
+  std::vector<std::string> key;   // of a table: key[i] names element[i]
+  std::string text;               // string
   std::int64_t integer = 0;
   double real = 0;  // also set for integers
   bool boolean = false;
 
-  CaseNode const* find(std::string const& key) const;  // member of a table; nullptr: absent
-  CaseNode* find(std::string const& key);
+  CaseNode const* find(std::string const& name) const;  // member of a table; nullptr: absent
+  CaseNode* find(std::string const& name);
 };
 
 char const* to_string(CaseNode::Kind kind);  // "a table", "a string" ...
