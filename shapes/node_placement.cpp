@@ -4,9 +4,12 @@
 #include "shapes/node_placement.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <numeric>
 #include <stdexcept>
+#include <unordered_map>
 
 #include "shapes/nearest_site.h"
 #include "shapes/point_blocks.h"
@@ -26,7 +29,7 @@ struct Triangles {
 struct Sites {
   std::vector<Vec3> position;
   std::vector<Vec3> normal;
-  std::vector<char> pinned;  // sits on a support point: stays there
+  std::vector<char> pinned;  // sits on a ridge or a support point: stays there
   double spacing = 0;
 
   int size() const { return static_cast<int>(position.size()); }
@@ -182,44 +185,60 @@ int nearest_allowed(Sites const& sites, Vec3 x, double reach, Allowed const& all
   return nearest;
 }
 
-// Mesh vertices on sharp convex edges: the triangles around one fan out by more than 20 degrees and fall away from it.
-std::vector<int> ridge_vertices(ZeroSet const& set, Triangles const& tri) {
-  double constexpr cosine = 0.94;
-  std::vector<Vec3> mean(set.mesh.vertex.size());
-  std::vector<double> fall(mean.size(), 0);
-  std::vector<char> fans_out(mean.size(), 0);
+struct Ridge {
+  std::vector<Vec3> point;   // along the mesh's sharp convex edges
+  std::vector<Vec3> normal;  // bisector of the two sides
+};
+
+// Mesh edges whose triangles meet at more than 25 degrees, outwards, as points no further than `distance` apart.
+Ridge find_ridges(ZeroSet const& set, Triangles const& tri, double distance) {
+  double constexpr cosine = 0.906;
+  std::unordered_map<std::uint64_t, int> first_triangle;
+  Ridge ridge;
   for (std::size_t t = 0; t < tri.area.size(); ++t)
-    for (int v : set.mesh.triangle[t]) mean[v] += tri.area_vector[t];
-  for (Vec3& m : mean) m = m / std::max(norm(m), 1e-300);
-  for (std::size_t t = 0; t < tri.area.size(); ++t)
-    for (int v : set.mesh.triangle[t]) {
-      if (tri.area[t] > 0 && dot(tri.normal[t], mean[v]) < cosine) fans_out[v] = 1;
-      fall[v] += tri.area[t] * dot(mean[v], set.mesh.vertex[v] - tri.centroid[t]);
+    for (int k = 0; k < 3; ++k) {
+      auto const& corner = set.mesh.triangle[t];
+      std::uint64_t const a = corner[k], b = corner[(k + 1) % 3];
+      auto const [at, fresh] = first_triangle.try_emplace(std::min(a, b) << 32 | std::max(a, b), static_cast<int>(t));
+      if (fresh) continue;
+      int const other = at->second;
+      bool const sharp = dot(tri.normal[t], tri.normal[other]) < cosine && tri.area[t] > 0 && tri.area[other] > 0;
+      if (!sharp || dot(tri.normal[t], tri.centroid[other] - tri.centroid[t]) > 0) continue;
+      Vec3 const p = set.mesh.vertex[a], q = set.mesh.vertex[b], n = tri.normal[t] + tri.normal[other];
+      int const pieces = 1 + static_cast<int>(norm(q - p) / distance);
+      for (int i = 0; i < pieces && norm(n) > 1e-6; ++i) {
+        ridge.point.push_back(p + (q - p) * ((i + 0.5) / pieces));
+        ridge.normal.push_back(normalized(n));
+      }
     }
-  std::vector<int> ridge;
-  for (std::size_t v = 0; v < mean.size(); ++v)
-    if (fans_out[v] && fall[v] > 0) ridge.push_back(static_cast<int>(v));
   return ridge;
 }
 
-// Nodes along sharp edges, at least `distance` apart and nowhere much further: the nearest sites move there. Without
-// them two rows of nodes settle beside an edge with their cells meeting on it, and the edge itself is blind.
+// The nearest free site moves to x and stays there; false if there is none.
+bool pin_nearest(Sites& sites, Vec3 x, Vec3 normal) {
+  int const site = nearest_allowed(sites, x, INFINITY, [&](int c) { return !sites.pinned[c]; });
+  if (site < 0) return false;
+  sites.position[site] = x;
+  sites.normal[site] = normal;
+  sites.pinned[site] = 1;
+  return true;
+}
+
+// Nodes on sharp corners and along sharp edges, at least `distance` apart and nowhere much further. Without them two
+// rows of nodes settle beside an edge with their cells meeting on it, and the edge itself is blind.
 void seed_ridges(ZeroSet const& set, Triangles const& tri, double distance, Sites& sites) {
-  std::vector<int> const ridge = ridge_vertices(set, tri);
-  std::vector<Vec3> point;
-  for (int v : ridge) point.push_back(set.mesh.vertex[v]);
   std::vector<Vec3> taken;
-  std::vector<char> used(sites.position.size(), 0);
-  for (int i : make_point_blocks(point, 2).order) {  // neighbours follow each other
-    bool const crowded =
-        std::any_of(taken.begin(), taken.end(), [&](Vec3 p) { return norm2(p - point[i]) < distance * distance; });
-    if (crowded) continue;
-    int const site = nearest_allowed(sites, point[i], INFINITY, [&](int c) { return !used[c]; });
-    if (site < 0 || static_cast<int>(taken.size()) >= sites.size() / 2) break;  // the faces need nodes too
-    used[site] = 1;
-    taken.push_back(point[i]);
-    sites.position[site] = point[i];
-    sites.normal[site] = set.normal[ridge[i]];
+  auto const crowded = [&](Vec3 x) {
+    return std::any_of(taken.begin(), taken.end(), [&](Vec3 p) { return norm2(p - x) < distance * distance; });
+  };
+  for (int v : set.corner)
+    if (!crowded(set.mesh.vertex[v]) && pin_nearest(sites, set.mesh.vertex[v], set.normal[v]))
+      taken.push_back(set.mesh.vertex[v]);
+  Ridge const ridge = find_ridges(set, tri, 0.5 * distance);
+  for (int i : make_point_blocks(ridge.point, 2).order) {           // neighbours follow each other
+    if (static_cast<int>(taken.size()) >= sites.size() / 3) break;  // the faces need nodes too
+    if (!crowded(ridge.point[i]) && pin_nearest(sites, ridge.point[i], ridge.normal[i]))
+      taken.push_back(ridge.point[i]);
   }
 }
 
@@ -281,23 +300,44 @@ void cover_support(PhiBatch const& phi, ZeroSet const& set, PlacementOptions con
   }
 }
 
-// Area vectors of the cells. Triangles whose corners belong to different nodes are cut in four.
-std::vector<Vec3> cell_area_vectors(ZeroSet const& set, Triangles const& tri, Sites const& sites) {
-  NearestSite const nearest(sites.position, sites.normal, sites.spacing);
+// Gives the triangle's area to the sites of its pieces: cut in four while its corners belong to different sites.
+struct AreaSharing {
+  NearestSite nearest;
+  std::vector<Vec3> sum;  // of each site
+
+  void share(std::array<Vec3, 3> const& p, Vec3 normal, Vec3 area, int cuts) {
+    if (cuts == 0) {
+      sum[nearest.find((p[0] + p[1] + p[2]) / 3, normal)] += area;
+      return;
+    }
+    std::array<Vec3, 3> const m{(p[1] + p[2]) * 0.5, (p[2] + p[0]) * 0.5, (p[0] + p[1]) * 0.5};
+    share({p[0], m[2], m[1]}, normal, area / 4, cuts - 1);
+    share({m[2], p[1], m[0]}, normal, area / 4, cuts - 1);
+    share({m[1], m[0], p[2]}, normal, area / 4, cuts - 1);
+    share(m, normal, area / 4, cuts - 1);
+  }
+};
+
+// Area vectors of the cells. Triangles on cell borders are cut, twice where the cells are small.
+std::vector<Vec3> cell_area_vectors(ZeroSet const& set, Triangles const& tri, PlacementOptions const& options,
+                                    Sites const& sites) {
+  AreaSharing sharing{NearestSite(sites.position, sites.normal, sites.spacing),
+                      std::vector<Vec3>(sites.position.size())};
   std::vector<int> at_vertex(set.mesh.vertex.size());
-  for (std::size_t v = 0; v < at_vertex.size(); ++v) at_vertex[v] = nearest.find(set.mesh.vertex[v], set.normal[v]);
-  std::vector<Vec3> sum(sites.position.size());
+  for (std::size_t v = 0; v < at_vertex.size(); ++v)
+    at_vertex[v] = sharing.nearest.find(set.mesh.vertex[v], set.normal[v]);
   for (std::size_t t = 0; t < tri.area.size(); ++t) {
     auto const& v = set.mesh.triangle[t];
-    if (at_vertex[v[0]] == at_vertex[v[1]] && at_vertex[v[1]] == at_vertex[v[2]]) {
-      sum[at_vertex[v[0]]] += tri.area_vector[t];
+    bool const whole = at_vertex[v[0]] == at_vertex[v[1]] && at_vertex[v[1]] == at_vertex[v[2]];
+    if (whole) {
+      sharing.sum[at_vertex[v[0]]] += tri.area_vector[t];
       continue;
     }
-    Vec3 const quarter = tri.area_vector[t] / 4;
-    sum[nearest.find(tri.centroid[t], tri.normal[t])] += quarter;
-    for (int i : v) sum[nearest.find((tri.centroid[t] + set.mesh.vertex[i]) * 0.5, tri.normal[t])] += quarter;
+    int const cuts = tri.density[t] > 0.5 * options.largest_curvature ? 2 : 1;
+    sharing.share({set.mesh.vertex[v[0]], set.mesh.vertex[v[1]], set.mesh.vertex[v[2]]}, tri.normal[t],
+                  tri.area_vector[t], cuts);
   }
-  return sum;
+  return sharing.sum;
 }
 
 }  // namespace
@@ -312,20 +352,19 @@ PlacedNodes place_nodes(PhiBatch const& phi, ZeroSet const& fine, PlacementOptio
     Cells const cells = assign(tri, sites);
     move_to_centres(fine, cells, sites);
     refill_empty(tri, cells, sites);
-    if (round == 1) seed_ridges(fine, tri, 0.75 * std::min(options.ridge_spacing, 0.5 * sites.spacing), sites);
     bool const last = round + 1 == options.rounds;
-    if (round != options.rounds / 2 && !last) continue;
+    if (round != 1 && !last) continue;
     std::vector<Vec3> gradient(sites.position.size());
     project_to_surface(phi, sites.position, gradient, sites.spacing, 3);
+    if (!last) seed_ridges(fine, tri, 0.75 * std::min(options.ridge_spacing, 0.5 * sites.spacing), sites);
     cover_support(phi, fine, options, tolerance, last, sites);
   }
-  std::vector<Vec3> const area = cell_area_vectors(fine, tri, sites);
-  // A site that came out without a cell gives up, but where it reaches higher than the neighbour that took its area
-  // (a corner between ridge nodes), the neighbour moves there.
-  for (std::size_t c = 0; c < area.size(); ++c) {
-    if (norm2(area[c]) > 0) continue;
+  std::vector<Vec3> area = cell_area_vectors(fine, tri, options, sites);
+  // A pinned site that came out without a cell (a corner between close neighbours) shares its neighbour's.
+  for (int c = 0; c < sites.size(); ++c) {
+    if (!sites.pinned[c] || norm2(area[c]) > 0) continue;
     int const heir = nearest_allowed(sites, sites.position[c], INFINITY, [&](int k) { return norm2(area[k]) > 0; });
-    if (dot(area[heir], sites.position[c] - sites.position[heir]) > 0) sites.position[heir] = sites.position[c];
+    area[c] = area[heir] = area[heir] / 2;
   }
   PlacedNodes nodes;
   for (std::size_t c = 0; c < area.size(); ++c) {

@@ -84,18 +84,18 @@ void sharpen_corners(PhiBatch const& phi, ZeroSet& set, int directions) {
   std::vector<Vec3> sum(set.mesh.vertex.size());
   std::vector<int> count(set.mesh.vertex.size(), 0);
   for (std::size_t k = 0; k < direction.size(); ++k) sum[top[k]] += direction[k], ++count[top[k]];
-  std::vector<int> corner;
   std::vector<Vec3> start, mean;
+  set.corner.clear();
   for (std::size_t v = 0; v < count.size(); ++v) {
     if (count[v] < many) continue;
-    corner.push_back(static_cast<int>(v));
+    set.corner.push_back(static_cast<int>(v));
     start.push_back(set.mesh.vertex[v]);
     mean.push_back(normalized(sum[v]));
   }
   std::vector<Vec3> const summit = climb(phi, start, mean, set.cell);
-  for (std::size_t i = 0; i < corner.size(); ++i) {
-    set.mesh.vertex[corner[i]] = summit[i];
-    set.normal[corner[i]] = mean[i];
+  for (std::size_t i = 0; i < set.corner.size(); ++i) {
+    set.mesh.vertex[set.corner[i]] = summit[i];
+    set.normal[set.corner[i]] = mean[i];
   }
 }
 

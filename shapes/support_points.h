@@ -22,7 +22,7 @@ std::vector<Vec3> climb(PhiBatch const& phi, std::vector<Vec3> const& start, std
                         double step, int rounds = 24);
 
 // Sharp corners are no vertices of a marched mesh. A vertex that is extreme in many of `directions` directions stands
-// for one: it is moved to where it climbs along their mean, with that mean as its normal.
+// for one: it is moved to where it climbs along their mean, with that mean as its normal, and listed in set.corner.
 void sharpen_corners(PhiBatch const& phi, ZeroSet& set, int directions = 3000);
 
 }  // namespace scree

@@ -18,6 +18,7 @@ struct ZeroSetOptions {
 struct ZeroSet {
   TriangleMesh mesh;             // closed, counter-clockwise seen from outside, vertices on phi = 0
   std::vector<Vec3> normal;      // outward unit normal -grad phi / |grad phi| at each vertex
+  std::vector<int> corner;       // vertices on sharp corners; empty until sharpen_corners (support_points.h)
   double cell = 0;               // edge of a grid cell [d]
   double worst_phi = 0;          // largest |phi| left at a vertex [d]
   int components = 0;            // connected pieces of the surface; a void inside counts too
