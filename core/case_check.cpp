@@ -96,7 +96,7 @@ void Checker::time() {
   range("time.safety", t.safety, 0, false, 1, "a share of the critical time step; beyond 1 the run is unstable");
   if (!t.settle) return;
   range("time.settle.damping", t.settle->damping, 0, true, infinity, "a rate in 1/s");
-  range("time.settle.after", t.settle->after, 0, true, t.end > 0 ? t.end : infinity, "seconds, at most time.end");
+  range("time.settle.after", t.settle->after, 0, true, infinity, "seconds");
   positive("time.settle.kinetic_per_grain", t.settle->kinetic_per_grain, "a kinetic energy in units of m g d");
   range("time.settle.hold", t.settle->hold, 0, true, infinity, "seconds");
 }
