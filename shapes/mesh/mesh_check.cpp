@@ -58,6 +58,7 @@ MeshReport check_mesh(TriangleMesh const& input, bool intersections) {
   MeshReport report;
   report.vertices = static_cast<int>(mesh.vertex.size());
   report.triangles = static_cast<int>(mesh.triangle.size());
+  report.degenerate_triangles = static_cast<int>(input.triangle.size()) - report.triangles;  // dropped by weld
   std::map<std::pair<int, int>, EdgeUse> edges;
   std::vector<int> parent(mesh.triangle.size());
   std::iota(parent.begin(), parent.end(), 0);

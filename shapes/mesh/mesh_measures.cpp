@@ -9,7 +9,9 @@
 #include <limits>
 #include <map>
 #include <numbers>
+#include <numeric>
 #include <stdexcept>
+#include <tuple>
 
 #include "shapes/mesh/cgal_mesh.h"
 #include "shapes/mesh/mesh_normalise.h"
@@ -32,6 +34,28 @@ Box box_of(TriangleMesh const& mesh) {
   return box;
 }
 
+// Vertices by coordinates, triangles by vertices: CGAL's order follows memory addresses and changes from run to run.
+TriangleMesh in_canonical_order(TriangleMesh const& mesh) {
+  std::vector<int> order(mesh.vertex.size()), place(mesh.vertex.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](int i, int j) {
+    Vec3 const a = mesh.vertex[i], b = mesh.vertex[j];
+    return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
+  });
+  TriangleMesh result;
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    result.vertex.push_back(mesh.vertex[order[k]]);
+    place[order[k]] = static_cast<int>(k);
+  }
+  for (auto const& [a, b, c] : mesh.triangle) {
+    std::array<int, 3> corner{place[a], place[b], place[c]};
+    std::rotate(corner.begin(), std::min_element(corner.begin(), corner.end()), corner.end());
+    result.triangle.push_back(corner);
+  }
+  std::sort(result.triangle.begin(), result.triangle.end());
+  return result;
+}
+
 }  // namespace
 
 TriangleMesh convex_hull(std::vector<Vec3> const& point) {
@@ -40,7 +64,7 @@ TriangleMesh convex_hull(std::vector<Vec3> const& point) {
   cgal::Mesh hull;
   CGAL::convex_hull_3(points.begin(), points.end(), hull);
   if (hull.number_of_faces() < 4) throw std::invalid_argument("convex_hull: the points lie in one plane");
-  return cgal::from_cgal(hull);
+  return in_canonical_order(cgal::from_cgal(hull));
 }
 
 double convexity(TriangleMesh const& mesh) {

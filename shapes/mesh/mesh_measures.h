@@ -8,7 +8,8 @@
 
 namespace scree {
 
-// Convex hull by CGAL; at least four points that are not in one plane, else std::invalid_argument.
+// Convex hull by CGAL, in an order that only depends on the points; at least four points that are not in one plane,
+// else std::invalid_argument.
 TriangleMesh convex_hull(std::vector<Vec3> const& point);
 
 double convexity(TriangleMesh const& mesh);  // volume / volume of the hull, at most 1
