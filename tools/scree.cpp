@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "core/case.h"
+#include "kernels/base/build_info.h"
 #include "kernels/sdf/sdf_batch.h"
 #include "tools/scree_commands.h"
 
@@ -18,8 +19,9 @@ namespace {
 using namespace scree;
 
 std::string version() {
-  return fmt::format("scree {} (sdf kernels: {}, CUDA: {}, mesh tools: {}, training: {})", SCREE_VERSION, sdf_isa(),
-                     SCREE_CUDA_PART, SCREE_MESH_PART, SCREE_TRAINING_PART);
+  BuildInfo const& b = build_info();
+  return fmt::format("scree {} (commit {}, {}, {}; sdf kernels: {}; parts: {})", b.version, b.commit, b.compiler,
+                     b.build_type, sdf_isa(), b.features[0] ? b.features : "engine only");
 }
 
 // <prefix>/bin/scree -> <prefix>/share/scree

@@ -39,7 +39,7 @@ struct RunArguments {
 };
 
 struct RenderArguments {
-  std::filesystem::path results, picture, ids;  // ids: 16-bit PNG, body number + 1; empty: none
+  std::filesystem::path results, picture, ids;  // ids: body numbers as colours; empty: none
   int frame = -1;
   std::string size = "1280x960";
   int threads = 0;

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <system_error>
 
+#include "kernels/base/build_info.h"
 #include "kernels/sdf/sdf_batch.h"
 
 namespace scree {
@@ -131,9 +132,10 @@ std::string ledger_table(LedgerRow const& r) {
 
 std::string stages_json(std::vector<StageRow> const& rows, Simulation const& s, int threads, double wall) {
   std::string out = fmt::format(
-      "{{\n  \"version\": \"{}\",\n  \"sdf_isa\": \"{}\",\n  \"threads\": {},\n  \"bodies\": {},\n  \"steps\": {},\n"
+      "{{\n  \"version\": \"{}\",\n  \"commit\": \"{}\",\n  \"sdf_isa\": \"{}\",\n  \"threads\": {},\n  \"bodies\": "
+      "{},\n  \"steps\": {},\n"
       "  \"simulated_seconds\": {},\n  \"wall_seconds\": {},\n  \"particle_steps_per_second\": {},\n  \"stages\": [",
-      SCREE_VERSION, sdf_isa(), threads, s.bodies(), s.steps(), s.time(), wall,
+      build_info().version, build_info().commit, sdf_isa(), threads, s.bodies(), s.steps(), s.time(), wall,
       static_cast<double>(s.bodies()) * static_cast<double>(s.steps()) / std::max(wall, 1e-9));
   for (std::size_t i = 0; i < rows.size(); ++i)
     out += fmt::format("{}\n    {{\"name\": \"{}\", \"seconds\": {}, \"calls\": {}, \"items\": {}}}", i ? "," : "",
