@@ -207,21 +207,21 @@ void smooth(PhiBatch const& phi, ZeroSet& set, int rounds) {
         ++count[t[k]];
       }
     for (std::size_t i = 0; i < n; ++i) set.mesh.vertex[i] = set.mesh.vertex[i] * 0.5 + sum[i] * (0.5 / count[i]);
-    project_to_surface(phi, set.mesh.vertex, gradient, set.cell, 2);
+    project_to_surface(phi, set.mesh.vertex, gradient, set.cell, 1);
   }
 }
 
-// Vertices onto phi = 0, normals from the gradient there.
-void settle(PhiBatch const& phi, ZeroSet& set, double reach) {
+// Vertices from `first` on onto phi = 0, normals from the gradient there.
+void settle(PhiBatch const& phi, ZeroSet& set, int first, double reach, int steps) {
   int const n = static_cast<int>(set.mesh.vertex.size());
-  std::vector<double> left(n);
+  std::vector<double> left(n - first);
   set.normal.resize(n);
-  project_to_surface(phi, set.mesh.vertex, set.normal, reach, 4, left);
-  set.worst_phi = 0;
-  for (int i = 0; i < n; ++i) {
+  project_to_surface(phi, Span<Vec3>(set.mesh.vertex).subspan(first, n - first),
+                     Span<Vec3>(set.normal).subspan(first, n - first), reach, steps, left);
+  for (int i = first; i < n; ++i) {
     double const length = norm(set.normal[i]);
     set.normal[i] = length > 0 ? set.normal[i] * (-1 / length) : Vec3{};
-    set.worst_phi = std::max(set.worst_phi, std::abs(left[i]));
+    set.worst_phi = std::max(set.worst_phi, std::abs(left[i - first]));
   }
 }
 
@@ -240,9 +240,9 @@ ZeroSet find_zero_set(PhiBatch const& phi, ZeroSetOptions const& options) {
   set.components = count_components(set.mesh);
   set.euler_characteristic = static_cast<int>(set.mesh.vertex.size()) - static_cast<int>(set.mesh.triangle.size()) / 2;
   std::vector<Vec3> gradient(set.mesh.vertex.size());
-  project_to_surface(phi, set.mesh.vertex, gradient, 1.5 * set.cell, 3);
+  project_to_surface(phi, set.mesh.vertex, gradient, 1.5 * set.cell, 2);
   smooth(phi, set, 3);
-  settle(phi, set, set.cell);
+  settle(phi, set, 0, set.cell, 4);
   return set;
 }
 
@@ -278,7 +278,7 @@ ZeroSet refine(PhiBatch const& phi, ZeroSet const& coarse) {
     fine.mesh.triangle.insert(fine.mesh.triangle.end(), {{t[0], a, c}, {a, t[1], b}, {c, b, t[2]}, {a, b, c}});
   }
   fine.cell = coarse.cell / 2;
-  settle(phi, fine, 0.5 * coarse.cell);
+  settle(phi, fine, static_cast<int>(coarse.mesh.vertex.size()), 0.5 * coarse.cell, 3);
   return fine;
 }
 
