@@ -1,0 +1,248 @@
+// grain_rays.cpp: see grain_rays.h.
+// SPDX-License-Identifier: Apache-2.0
+#include "core/grain_rays.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+
+namespace scree {
+
+namespace {
+
+double constexpr ball_margin = 1.01;  // of the bounding radius; networks may be evaluated up to 1.1
+int constexpr leaf_size = 4;
+int constexpr max_steps = 96;           // a ray this long along a surface has found it for the eye
+double constexpr hit_tolerance = 1e-4;  // [d], half a pixel of a grain 5,000 pixels wide
+
+Box around(Vec3 centre, double radius) {
+  Vec3 const r{radius, radius, radius};
+  return {centre - r, centre + r};
+}
+Box united(Box a, Box const& b) {
+  for (int i = 0; i < 3; ++i) {
+    a.min[i] = std::min(a.min[i], b.min[i]);
+    a.max[i] = std::max(a.max[i], b.max[i]);
+  }
+  return a;
+}
+
+bool ray_meets(Box const& box, Ray const& ray) {
+  double enter = 0, leave = ray.limit;
+  for (int i = 0; i < 3; ++i) {
+    double const inverse = 1 / ray.direction[i];
+    double a = (box.min[i] - ray.origin[i]) * inverse, b = (box.max[i] - ray.origin[i]) * inverse;
+    if (a > b) std::swap(a, b);
+    enter = a > enter ? a : enter;  // a NaN (0 times infinity) changes nothing
+    leave = b < leave ? b : leave;
+  }
+  return enter <= leave;
+}
+
+double distance_to(Box const& box, Vec3 p) {
+  Vec3 gap;
+  for (int i = 0; i < 3; ++i) gap[i] = std::max({box.min[i] - p[i], p[i] - box.max[i], 0.0});
+  return norm(gap);
+}
+
+}  // namespace
+
+GrainRays::GrainRays(ResultsHeader const& header, Frame const& frame) : header_(header), frame_(frame) {
+  std::size_t const n = frame.position.size();
+  if (header.shape.size() != n || header.diameter.size() != n || frame.orientation.size() != n)
+    throw std::invalid_argument("render: the frame's bodies do not match the header's");
+  for (Shape const& s : header.library.shape) {
+    phi_.push_back(surface_phi(header.library, s));
+    lipschitz_.push_back(s.is_net ? std::max(1.0, s.lipschitz) : 1.0);
+  }
+  double sum = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    rotation_.push_back(to_matrix(normalized(frame.orientation[i])));
+    sum += header.diameter[i];
+    Shape const& s = header.library.shape.at(static_cast<std::size_t>(header.shape[i]));
+    if (is_finite(frame.position[i]))
+      balls_.push_back({frame.position[i], ball_margin * s.bounding_radius * header.diameter[i], static_cast<int>(i)});
+  }
+  if (n > 0) mean_diameter_ = sum / static_cast<double>(n);
+  if (!balls_.empty()) {
+    build(0, static_cast<int>(balls_.size()));
+    bounds_ = nodes_[0].box;
+  }
+}
+
+int GrainRays::build(int first, int count) {
+  int const self = static_cast<int>(nodes_.size());
+  Box box = around(balls_[first].centre, balls_[first].radius);
+  for (int i = first + 1; i < first + count; ++i) box = united(box, around(balls_[i].centre, balls_[i].radius));
+  nodes_.push_back({box, first, count, -1});
+  if (count <= leaf_size) return self;
+  Vec3 const size = box.max - box.min;
+  int const axis = size.x > size.y && size.x > size.z ? 0 : (size.y > size.z ? 1 : 2);
+  std::nth_element(balls_.begin() + first, balls_.begin() + first + count / 2, balls_.begin() + first + count,
+                   [axis](Ball const& a, Ball const& b) { return a.centre[axis] < b.centre[axis]; });
+  build(first, count / 2);
+  int const right = build(first + count / 2, count - count / 2);
+  nodes_[self].right = right;
+  return self;
+}
+
+void GrainRays::collect(Ray const& ray, std::vector<Visit>& visits) const {
+  if (nodes_.empty()) return;
+  int stack[64], depth = 0;
+  for (stack[depth++] = 0; depth > 0;) {
+    int const index = stack[--depth];
+    Node const& node = nodes_[index];
+    if (!ray_meets(node.box, ray)) continue;
+    if (node.right >= 0) {
+      stack[depth++] = node.right;
+      stack[depth++] = index + 1;
+      continue;
+    }
+    for (int i = node.first; i < node.first + node.count; ++i) {
+      Vec3 const to = balls_[i].centre - ray.origin;
+      double const along = dot(to, ray.direction), off2 = norm2(to) - along * along;
+      double const half2 = balls_[i].radius * balls_[i].radius - off2;
+      if (half2 <= 0) continue;
+      double const half = std::sqrt(half2), enter = std::max(0.0, along - half), leave = along + half;
+      if (leave > 0 && enter < ray.limit) visits.push_back({enter, leave, i});
+    }
+  }
+}
+
+void GrainRays::near(Vec3 point, double reach, std::vector<int>& found) const {
+  if (nodes_.empty()) return;
+  int stack[64], depth = 0;
+  for (stack[depth++] = 0; depth > 0;) {
+    int const index = stack[--depth];
+    Node const& node = nodes_[index];
+    if (distance_to(node.box, point) > reach) continue;
+    if (node.right >= 0) {
+      stack[depth++] = node.right;
+      stack[depth++] = index + 1;
+      continue;
+    }
+    for (int i = node.first; i < node.first + node.count; ++i)
+      if (norm(point - balls_[i].centre) < balls_[i].radius + reach) found.push_back(i);
+  }
+}
+
+Vec3 GrainRays::in_body_frame(int body, Vec3 world) const {
+  return transposed_times(rotation_[body], world - frame_.position[body]) / header_.diameter[body];
+}
+
+void GrainRays::evaluate(std::vector<Query> const& queries, std::vector<double>& phi,
+                         std::vector<Vec3>* gradient) const {
+  std::size_t const n = queries.size();
+  phi.resize(n);
+  if (gradient) gradient->resize(n);
+  // Counting sort by shape: one batch a shape.
+  std::vector<int> first(phi_.size() + 1, 0), order(n);
+  for (Query const& q : queries) ++first[header_.shape[q.body] + 1];
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  std::vector<int> next(first.begin(), first.end() - 1);
+  std::vector<Vec3> point(n), slope(gradient ? n : 0);
+  std::vector<double> value(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    int const to = next[header_.shape[queries[i].body]]++;
+    order[to] = static_cast<int>(i);
+    point[to] = in_body_frame(queries[i].body, queries[i].point);
+  }
+  for (std::size_t s = 0; s < phi_.size(); ++s) {
+    int const at = first[s], count = first[s + 1] - first[s];
+    if (count == 0) continue;
+    phi_[s]({point.data() + at, count}, {value.data() + at, count},
+            gradient ? Span<Vec3>(slope.data() + at, count) : Span<Vec3>());
+  }
+  for (std::size_t k = 0; k < n; ++k) {
+    int const body = queries[order[k]].body;
+    phi[order[k]] = value[k] * header_.diameter[body];
+    if (gradient) (*gradient)[order[k]] = rotation_[body] * slope[k];
+  }
+}
+
+void GrainRays::trace(std::vector<Ray> const& rays, std::vector<RayHit>& hits, bool any) const {
+  struct Walk {
+    int ray, next, end;  // the visits still to make
+    double at, leave;    // within the present ball
+    int body = -1, step = 0;
+  };
+  hits.assign(rays.size(), {});
+  std::vector<Visit> visits;
+  std::vector<Walk> walks;
+  // The next ball, unless what is found already lies in front of it.
+  auto const advance = [&](Walk& w) {
+    if (w.next == w.end) return false;
+    RayHit const& hit = hits[w.ray];
+    Visit const& v = visits[w.next++];
+    if (hit.body >= 0 && (any || v.enter > hit.distance)) return false;
+    w.at = v.enter;
+    w.leave = std::min(v.leave, hit.body >= 0 ? hit.distance : rays[w.ray].limit);
+    w.body = balls_[v.ball].body;
+    w.step = 0;
+    return true;
+  };
+  for (int r = 0; r < static_cast<int>(rays.size()); ++r) {
+    int const begin = static_cast<int>(visits.size());
+    collect(rays[r], visits);
+    std::sort(visits.begin() + begin, visits.end(), [](Visit const& a, Visit const& b) { return a.enter < b.enter; });
+    Walk w{r, begin, static_cast<int>(visits.size()), 0, 0};
+    if (advance(w)) walks.push_back(w);
+  }
+  std::vector<Query> queries;
+  std::vector<double> phi;
+  while (!walks.empty()) {
+    queries.clear();
+    for (Walk const& w : walks) queries.push_back({w.body, rays[w.ray].origin + rays[w.ray].direction * w.at});
+    evaluate(queries, phi, nullptr);
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < walks.size(); ++i) {
+      Walk w = walks[i];
+      double const d = header_.diameter[w.body];
+      bool goes_on = true;
+      if (phi[i] > -hit_tolerance * d || ++w.step == max_steps) {
+        hits[w.ray] = {w.body, w.at};
+        goes_on = advance(w);
+      } else {
+        w.at += -phi[i] / lipschitz_[header_.shape[w.body]];
+        if (w.at > w.leave) goes_on = advance(w);
+      }
+      if (goes_on) walks[kept++] = w;
+    }
+    walks.resize(kept);
+  }
+}
+
+void GrainRays::normals(std::vector<Vec3> const& points, std::vector<int> const& bodies,
+                        std::vector<Vec3>& normals) const {
+  std::vector<Query> queries(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) queries[i] = {bodies[i], points[i]};
+  std::vector<double> phi;
+  evaluate(queries, phi, &normals);
+  for (Vec3& n : normals) n = norm2(n) > 0 ? -normalized(n) : Vec3{0, 0, 1};
+}
+
+void GrainRays::clearance(std::vector<Vec3> const& points, double reach, std::vector<double>& distance) const {
+  distance.assign(points.size(), reach);
+  std::vector<Query> queries;
+  std::vector<double> before;  // from the point to its ball
+  std::vector<int> owner, found;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    found.clear();
+    near(points[i], reach, found);
+    for (int b : found) {
+      Ball const& ball = balls_[b];
+      Vec3 const from_centre = points[i] - ball.centre;
+      double const r = norm(from_centre), gap = std::max(0.0, r - ball.radius);
+      queries.push_back({ball.body, gap > 0 ? ball.centre + from_centre * (ball.radius / r) : points[i]});
+      before.push_back(gap);
+      owner.push_back(static_cast<int>(i));
+    }
+  }
+  std::vector<double> phi;
+  evaluate(queries, phi, nullptr);
+  for (std::size_t k = 0; k < queries.size(); ++k)
+    distance[owner[k]] = std::min(distance[owner[k]], before[k] - phi[k]);
+}
+
+}  // namespace scree
