@@ -1,6 +1,6 @@
-// file_container.h: the 512-byte user block before every HDF5 file of ours: magic, kind, version, payload length,
-// CRC32. Checked before HDF5 opens the file: libhdf5 1.10 itself crashes on damaged files. SPDX-License-Identifier:
-// Apache-2.0
+// file_container.h: the 512-byte user block before every HDF5 file of ours: magic, kind, version, payload length, CRC32,
+// checked before HDF5 opens the file, because libhdf5 1.10 itself crashes on damaged ones.
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>
