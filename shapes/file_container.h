@@ -1,4 +1,4 @@
-// file_container.h: the 512-byte user block before every HDF5 file of ours: magic, kind, version, payload length, CRC32,
+// file_container.h: the 512-byte user block before our HDF5 files (magic, kind, version, payload length, CRC32),
 // checked before HDF5 opens the file, because libhdf5 1.10 itself crashes on damaged ones.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
