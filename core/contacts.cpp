@@ -1,0 +1,114 @@
+// contacts.cpp: see contacts.h.
+// SPDX-License-Identifier: Apache-2.0
+#include "core/contacts.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "kernels/base/profile.h"
+#include "kernels/bounds.h"
+
+namespace scree {
+namespace {
+
+// Boxes grow by this part of d, so that the pair list outlives many steps.
+double constexpr pair_skin = 0.05;
+// Brute force looks far beyond it, so that a pair the boxes missed would show.
+double constexpr brute_force_skin = 0.25;
+
+bool pairs_are_stale(Scene const& scene, State const& state, Workspace const& work) {
+  if (work.built_position.size() != state.position.size()) return true;
+  for (std::size_t i = 0; i < state.position.size(); ++i) {
+    Quat const f = work.built_orientation[i];
+    Quat const turn = Quat{f.w, -f.x, -f.y, -f.z} * state.orientation[i];
+    double const half_chord = std::sqrt(turn.x * turn.x + turn.y * turn.y + turn.z * turn.z);
+    double const reach = scene.shape[scene.shape_of[i]].bounding_radius * scene.diameter[i];
+    // Both bodies of a pair may use up their own skin.
+    if (!(norm(state.position[i] - work.built_position[i]) + 2 * reach * half_chord < work.skin[i])) return true;
+  }
+  return false;
+}
+
+// Rank of a pair in list order: by a, planes first, then b.
+bool before(Pair p, Pair q) {
+  auto const rank = [](Pair r) {
+    return r.with_plane() ? static_cast<std::int64_t>(r.plane()) : (std::int64_t{1} << 40) + r.b;
+  };
+  return p.a != q.a ? p.a < q.a : rank(p) < rank(q);
+}
+
+void match_old_pairs(std::vector<Pair> const& old, std::vector<Pair> const& now, std::vector<int>& old_pair) {
+  old_pair.assign(now.size(), -1);
+  for (std::size_t i = 0, j = 0; i < now.size(); ++i) {
+    while (j < old.size() && before(old[j], now[i])) ++j;
+    if (j < old.size() && old[j] == now[i]) old_pair[i] = static_cast<int>(j);
+  }
+}
+
+template <class T>
+void permute(std::vector<T>& values, std::vector<int> const& from, T fresh) {
+  std::vector<T> next(from.size(), fresh);
+  for (std::size_t i = 0; i < from.size(); ++i)
+    if (from[i] >= 0 && from[i] < static_cast<int>(values.size())) next[i] = values[from[i]];
+  values = std::move(next);
+}
+
+void rebuild_pairs(Queue const& queue, Scene const& scene, SceneView const& view, double skin, State& state,
+                   Workspace& work) {
+  work.skin.resize(scene.bodies());
+  for (int i = 0; i < scene.bodies(); ++i) work.skin[i] = skin * scene.diameter[i];
+  work.box.resize(scene.bodies());
+  compute_bounds(queue, view, state.view(), work.skin, work.box);
+  find_pairs(queue, view, work.box, work.broad_phase);
+  ScopedTimer const timer(queue.profile, "broad_phase/match", work.broad_phase.pair.size());
+  match_old_pairs(work.pair, work.broad_phase.pair, work.old_pair);
+  work.pair = work.broad_phase.pair;
+  work.closed_form.resize(work.pair.size());
+  for (std::size_t k = 0; k < work.pair.size(); ++k) {
+    Pair const p = work.pair[k];
+    work.closed_form[k] =
+        view.shape_record(p.a).closed_form_sphere && (p.with_plane() || view.shape_record(p.b).closed_form_sphere);
+  }
+  assign_sides(view, static_cast<int>(scene.networks.net.size()), work.pair, work.old_pair, work.closed_form,
+               work.gather, work.old_side);
+  if (scene.friction) {
+    permute(state.node_history.first, work.old_side, 0);
+    permute(state.node_history.count, work.old_side, 0);
+    permute(state.sphere_history.xi, work.old_pair, Vec3{});
+    permute(state.sphere_history.stiffness, work.old_pair, 0.0);
+  }
+  assign_pairs_to_bodies(scene.bodies(), work.pair, work.pairs_of_bodies);
+  work.built_position = state.position;
+  work.built_orientation = state.orientation;
+  ++work.pair_rebuilds;
+}
+
+}  // namespace
+
+void evaluate_contacts(Queue const& queue, Scene const& scene, Effects const& effects, ContactSettings const& settings,
+                       double dt, State& state, Workspace& work) {
+  SceneView const view = scene.view();
+  StateView const now = state.view();
+  if (settings.brute_force || pairs_are_stale(scene, state, work))
+    rebuild_pairs(queue, scene, view, settings.brute_force ? brute_force_skin : pair_skin, state, work);
+  compute_kinematics(queue, view, now, work.kinematics);
+  KinematicsView const kinematics{work.kinematics.rotation, work.kinematics.spin};
+  ContactOptions const options{dt, settings.normalise_gradient};
+  work.result.resize(work.pair.size());
+  if (effects.node_contacts) {
+    update_node_lists(queue, view, now, kinematics, scene.networks, {dt, settings.brute_force}, work.gather);
+    find_active_nodes(queue, view, now, kinematics, scene.networks, work.gather.lists, work.active);
+    reduce_node_contacts(queue, view, now, kinematics, options, work.pair, work.closed_form, work.gather.lists,
+                         work.active, state.node_history, work.next_node_history, work.result);
+  }
+  if (effects.sphere_contacts)
+    sphere_contacts(queue, view, now, kinematics, options, work.pair, work.closed_form, state.sphere_history,
+                    work.next_sphere_history, work.result);
+  if (effects.friction) {
+    std::swap(state.node_history, work.next_node_history);
+    std::swap(state.sphere_history, work.next_sphere_history);
+  }
+  reduce_to_bodies(queue, view, work.result, work.pairs_of_bodies, state.wrench);
+}
+
+}  // namespace scree

@@ -1,0 +1,53 @@
+// effects.cpp: see effects.h. A line an effect, a line a stage.
+// SPDX-License-Identifier: Apache-2.0
+#include "core/effects.h"
+
+#include <algorithm>
+
+namespace scree {
+
+Effects effects_of(Case const& c, Scene const& scene) {
+  auto const any_shape = [&](auto test) { return std::any_of(scene.shape.begin(), scene.shape.end(), test); };
+  auto const any_contact = [&](auto test) { return std::any_of(scene.contact.begin(), scene.contact.end(), test); };
+  bool const spheres = any_shape([](ShapeRecord const& s) { return s.closed_form_sphere; });
+  bool const others = any_shape([](ShapeRecord const& s) { return !s.closed_form_sphere; });
+  bool const analytic = any_shape([](ShapeRecord const& s) { return s.net < 0; });
+  Effects e;
+  e.sphere_contacts = spheres;
+  e.node_contacts = others;
+  e.networks = any_shape([](ShapeRecord const& s) { return s.net >= 0; });
+  e.analytic_nodes = others && (analytic || !scene.plane.empty());
+  e.friction = any_contact([](ContactParameters const& p) { return p.friction > 0; });
+  e.damping = any_contact([](ContactParameters const& p) { return p.damping_nodes > 0; });
+  e.gravity = c.gravity.has_value();
+  e.settle = c.time.settle.has_value();
+  return e;
+}
+
+std::vector<std::string> stages_of(Effects const& e) {
+  std::vector<std::string> stages = {"bounds", "broad_phase"};
+  auto const add = [&](bool wanted, char const* name) {
+    if (wanted) stages.push_back(name);
+  };
+  add(e.node_contacts, "node_gather");
+  add(e.networks, "sdf_net");
+  add(e.analytic_nodes, "sdf_analytic");
+  add(e.sphere_contacts, "sphere_contacts");
+  add(e.node_contacts, "contact_reduce");
+  add(e.gravity, "gravity");
+  add(true, "integrate");
+  add(e.settle, "global_damping");
+  add(true, "watch");
+  return stages;
+}
+
+std::vector<std::string> names_of(Effects const& e) {
+  std::vector<std::string> names;
+  if (e.gravity) names.push_back("gravity");
+  if (e.friction) names.push_back("friction");
+  if (e.damping) names.push_back("damping");
+  if (e.settle) names.push_back("settle");
+  return names;
+}
+
+}  // namespace scree

@@ -1,0 +1,141 @@
+// scene.cpp: materials, walls and bodies of a scene. See scene.h.
+// SPDX-License-Identifier: Apache-2.0
+#include "core/scene.h"
+
+#include <algorithm>
+
+#include "core/placement.h"
+#include "core/scene_shapes.h"
+#include "kernels/contact_laws.h"
+#include "kernels/restitution.h"
+
+namespace scree {
+
+SceneView Scene::view() const {
+  SceneView v;
+  v.shape = shape;
+  v.nodes = {node_position, node_area, block_centre, block_radius, block_first};
+  v.shape_of = shape_of;
+  v.material_of = material_of;
+  v.diameter = diameter;
+  v.mass = mass;
+  v.inertia = inertia;
+  v.plane = plane;
+  v.contact = contact;
+  v.materials = static_cast<int>(material.size());
+  v.friction = friction;
+  return v;
+}
+
+namespace {
+
+int material_index(Case const& c, std::string const& name) {
+  for (std::size_t i = 0; i < c.material.size(); ++i)
+    if (c.material[i].name == name) return static_cast<int>(i);
+  return -1;  // refused by problems(Case)
+}
+
+ContactParameters parameters_of(ContactCase const& contact, double largest_diameter) {
+  ContactParameters p;
+  p.kappa = contact.kappa ? *contact.kappa
+                          : winkler_modulus(contact.stiffness, largest_diameter, contact.at_overlap * largest_diameter);
+  p.tangential = contact.tangential_ratio;
+  p.friction = contact.friction.value_or(0);
+  if (contact.damping_ratio) {
+    p.damping_nodes = *contact.damping_ratio;
+    // Both paths have to rebound alike, so the ratio stands for the restitution it gives on nodes.
+    p.damping_sphere = p.damping_nodes > 0
+                           ? damping_ratio_for(restitution_of(p.damping_nodes, DampingPath::nodes), DampingPath::sphere)
+                           : 0;
+  } else if (contact.restitution) {
+    p.damping_nodes = damping_ratio_for(*contact.restitution, DampingPath::nodes);
+    p.damping_sphere = damping_ratio_for(*contact.restitution, DampingPath::sphere);
+  }
+  return p;
+}
+
+void build_contacts(Case const& c, Scene& scene, std::vector<std::string>& found) {
+  int const n = static_cast<int>(c.material.size());
+  double largest = 0;
+  for (GrainsCase const& g : c.grains) largest = std::max(largest, g.diameter);
+  for (MaterialCase const& m : c.material) scene.material.push_back(m.name);
+  scene.contact.assign(std::size_t(n) * n, {});
+  std::vector<char> given(std::size_t(n) * n, 0);
+  for (ContactCase const& contact : c.contact) {
+    int const a = material_index(c, contact.pair.first), b = material_index(c, contact.pair.second);
+    if (a < 0 || b < 0) continue;
+    try {
+      ContactParameters const p = parameters_of(contact, largest);
+      for (int k : {a * n + b, b * n + a}) scene.contact[k] = p, given[k] = 1;
+    } catch (std::invalid_argument const& e) {
+      found.push_back("contact '" + contact.pair.first + "' - '" + contact.pair.second + "': " + e.what());
+    }
+  }
+  std::vector<char> carried(n, 0), used(n, 0);
+  for (GrainsCase const& g : c.grains) carried[material_index(c, g.material)] = used[material_index(c, g.material)] = 1;
+  for (WallCase const& w : c.wall) used[material_index(c, w.material)] = 1;
+  for (int a = 0; a < n; ++a)
+    for (int b = a; b < n; ++b)
+      if (used[a] && used[b] && (carried[a] || carried[b]) && !given[a * n + b])
+        found.push_back("materials '" + c.material[a].name + "' and '" + c.material[b].name +
+                        "' can meet, but no [[contact]] has pair = [\"" + c.material[a].name + "\", \"" +
+                        c.material[b].name + "\"]");
+  for (ContactParameters const& p : scene.contact) scene.friction = scene.friction || p.friction > 0;
+}
+
+void build_planes(Case const& c, Scene& scene) {
+  for (std::size_t w = 0; w < c.wall.size(); ++w) {
+    WallCase const& wall = c.wall[w];
+    int const material = material_index(c, wall.material);
+    if (wall.kind == WallKind::plane) {
+      scene.plane.push_back({wall.point, normalized(wall.normal), material, static_cast<int>(w)});
+      continue;
+    }
+    for (int axis = 0; axis < 3; ++axis)
+      for (int high = 0; high < 2; ++high) {
+        std::string const face = std::string(high ? "+" : "-") + "xyz"[axis];
+        if (std::find(wall.open.begin(), wall.open.end(), face) != wall.open.end()) continue;
+        Vec3 normal;
+        normal[axis] = high ? -1 : 1;
+        scene.plane.push_back({high ? wall.max : wall.min, normal, material, static_cast<int>(w)});
+      }
+  }
+}
+
+void add_bodies(Case const& c, std::vector<std::vector<int>> const& templates, Scene& scene) {
+  for (std::size_t g = 0; g < c.grains.size(); ++g) {
+    GrainsCase const& grains = c.grains[g];
+    int const material = material_index(c, grains.material);
+    double const density = c.material[material].density, d = grains.diameter;
+    for (int shape : assign_shapes(c, static_cast<int>(g), templates[g])) {
+      Shape const& s = scene.library.shape[shape];
+      scene.shape_of.push_back(shape);
+      scene.material_of.push_back(material);
+      scene.group_of.push_back(static_cast<int>(g));
+      scene.diameter.push_back(d);
+      scene.mass.push_back(density * s.volume * d * d * d);
+      scene.inertia.push_back(s.inertia * (density * d * d * d * d * d));
+    }
+  }
+}
+
+}  // namespace
+
+Scene build_scene(Case const& c, int threads, Placement& placement) {
+  std::vector<std::string> found = problems(c);
+  if (!found.empty()) throw InputError(found);
+  Scene scene;
+  build_contacts(c, scene, found);
+  build_planes(c, scene);
+  ShapeCatalogue catalogue(c, found);
+  std::vector<std::vector<int>> templates;
+  for (GrainsCase const& grains : c.grains) templates.push_back(catalogue.templates_for(grains, scene, found));
+  if (!found.empty()) throw InputError(found);
+  catalogue.finish(scene, threads, found);
+  add_bodies(c, templates, scene);
+  placement = place_grains(c, scene, found);
+  if (!found.empty()) throw InputError(found);
+  return scene;
+}
+
+}  // namespace scree

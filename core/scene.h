@@ -1,0 +1,52 @@
+// scene.h: everything of a run that never changes: shapes with their nodes, materials, walls, masses.
+// Built once from a Case; kernels see it through view().
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/case.h"
+#include "kernels/sdf_queries.h"
+#include "kernels/views.h"
+#include "shapes/shape.h"
+#include "shapes/surface_nodes.h"
+
+namespace scree {
+
+struct Scene {
+  // Shapes in use, one template each (a shape with another node count is another template).
+  Library library;                 // library.shape[i] is template i
+  std::vector<ShapeRecord> shape;  // (n_templates)
+  std::vector<int> nodes_wanted;   // (n_templates)
+  NetworkSet networks;
+  std::vector<Vec3> node_position;  // [d]
+  std::vector<double> node_area;    // [d^2]
+  std::vector<Vec3> block_centre;
+  std::vector<double> block_radius;
+  std::vector<int> block_first;  // with an end entry a template
+
+  // Bodies.
+  std::vector<int> shape_of, material_of, group_of;  // group: index of the [[grains]] entry
+  std::vector<double> diameter, mass;                // [m], [kg]
+  std::vector<Vec3> inertia;                         // principal [kg m2]
+
+  std::vector<std::string> material;
+  std::vector<PlaneRecord> plane;
+  std::vector<ContactParameters> contact;  // [a * materials + b]
+  bool friction = false;
+
+  SceneView view() const;
+  int bodies() const { return static_cast<int>(shape_of.size()); }
+};
+
+// Poses and velocities a case starts from (n_bodies).
+struct Placement {
+  std::vector<Vec3> position, velocity, spin;  // [m], [m/s], world [rad/s]
+  std::vector<Quat> orientation;
+};
+
+// Reads model files, resolves shapes, builds nodes, places grains. Throws InputError with all problems.
+Scene build_scene(Case const& c, int threads, Placement& placement);
+
+}  // namespace scree

@@ -1,0 +1,150 @@
+// simulation.cpp: the step, a straight line, and what the host decides between steps. See simulation.h.
+// SPDX-License-Identifier: Apache-2.0
+#include "core/simulation.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/energy.h"
+#include "core/simulation_impl.h"
+#include "kernels/body_effects.h"
+#include "kernels/integrate.h"
+
+namespace scree {
+
+Simulation::Impl::Impl(Case const& c_, SimulationOptions const& options_) : c(c_), options(options_) {
+  queue.threads = std::max(1, options.threads);
+  queue.profile = &profile;
+  Placement placement;
+  scene = build_scene(c, queue.threads, placement);
+  effects = effects_of(c, scene);
+  contacts.brute_force = options.brute_force;
+  int const n = scene.bodies();
+  state.position = placement.position;
+  state.orientation = placement.orientation;
+  state.velocity = placement.velocity;
+  for (int i = 0; i < n; ++i) {
+    Mat3 const r = to_matrix(state.orientation[i]);
+    state.angular_momentum.push_back(r * multiply(scene.inertia[i], transposed_times(r, placement.spin[i])));
+  }
+  for (auto* v : {&state.work_damping, &state.work_friction, &state.removed_by_damping}) v->assign(n, 0);
+  work.external.assign(n, {});
+  if (effects.gravity) apply_gravity(queue, scene.view(), *c.gravity, work.external);
+  estimate = estimate_critical_step(c, scene, placement);
+  // Free flight needs no small step, but output does: at least a hundred steps a run.
+  state.time_step =
+      c.time.step ? *c.time.step : std::min({c.time.safety * estimate.critical, estimate.accurate, c.time.end / 100});
+  evaluate_contacts(queue, scene, effects, contacts, 0, state, work);
+  report = watch(queue, scene, state, gravity_size(), work);
+  state.initial_energy = mechanical_energy(make_ledger(scene, c.gravity, state, work));
+  state.kinetic_peak = report.kinetic_total;
+  profile.clear();  // the run's own steps are what is profiled
+}
+
+double Simulation::Impl::gravity_size() const {
+  double const g = c.gravity ? norm(*c.gravity) : 0;
+  return g > 0 ? g : 9.81;
+}
+
+RunState Simulation::Impl::step() {
+  if (run_state != RunState::running) return run_state;
+  SceneView const view = scene.view();
+  double const dt = state.time_step;
+  WorkView const work_done{state.work_damping, state.work_friction};
+  open_step(queue, view, state.view(), work.wrenches(state.wrench), dt, work_done);
+  evaluate_contacts(queue, scene, effects, contacts, dt, state, work);
+  close_step(queue, view, state.view(), work.wrenches(state.wrench), dt, work_done);
+  if (state.damped)
+    apply_global_damping(queue, view, state.view(), c.time.settle->damping, dt, state.removed_by_damping);
+  state.time += dt;
+  ++state.step;
+  report = watch(queue, scene, state, gravity_size(), work);
+  state.kinetic_peak = std::max(state.kinetic_peak, report.kinetic_total);
+  check_limits();
+  check_time_step();
+  if (effects.settle) settle();
+  if (run_state == RunState::running && state.time >= c.time.end * (1 - 1e-12)) run_state = RunState::ended;
+  return run_state;
+}
+
+void Simulation::Impl::check_limits() {
+  auto const stop = [&](std::string const& what) {
+    throw WatchStop(fmt::format("stopped at t = {:.6g} s, step {}: {}", state.time, state.step, what));
+  };
+  if (report.not_finite >= 0)
+    stop(describe_body(scene, report.not_finite) + " has a position or velocity that is not finite");
+  if (report.overlap > c.limits.overlap)
+    stop(
+        fmt::format("{} overlap by {:.3g} d, limits.overlap is {:.3g}. A smaller impact speed, a stiffer contact or a "
+                    "higher limit lets the run go on",
+                    describe_pair(scene, c, work.pair[report.overlap_pair]), report.overlap, c.limits.overlap));
+}
+
+void Simulation::Impl::check_time_step() {
+  double const critical = critical_time_step(scene.view(), work.pair, work.result, state.wrench.stiffness);
+  double const share = state.time_step / critical;
+  if (c.time.step) {
+    // The user's step is the user's, up to where it cannot work.
+    if (share > 0.5 && !warned_of_share) {
+      messages.push_back(
+          fmt::format("t = {:.4g} s: time.step is {:.2f} of the critical step {:.3g} s; above 0.5 the "
+                      "energy ledger suffers",
+                      state.time, share, critical));
+      warned_of_share = true;
+    }
+    if (share > 1.5)
+      throw WatchStop(
+          fmt::format("stopped at t = {:.6g} s, step {}: time.step = {:.3g} s is {:.2f} of the critical step "
+                      "{:.3g} s; use step = \"auto\" or a smaller one",
+                      state.time, state.step, state.time_step, share, critical));
+    return;
+  }
+  // The prediction missed: halve at once, never raise again (part of the state).
+  if (share > 2 * c.time.safety || share > 0.8) {
+    state.time_step /= 2;
+    messages.push_back(fmt::format("t = {:.4g} s: contacts stiffer than predicted, time step halved to {:.3g} s",
+                                   state.time, state.time_step));
+  }
+}
+
+void Simulation::Impl::settle() {
+  SettleCase const& s = *c.time.settle;
+  if (state.time < s.after) return;
+  bool const quiet = report.kinetic_largest <= s.kinetic_per_grain;
+  if (!quiet) {
+    state.damped = true;
+    state.quiet_since = -1;
+    return;
+  }
+  if (state.quiet_since < 0) {
+    state.damped = false;  // rest has to hold by itself
+    state.quiet_since = state.time;
+  }
+  if (state.time - state.quiet_since >= s.hold) run_state = RunState::at_rest;
+}
+
+Simulation::Simulation(Case const& c, SimulationOptions const& options) : impl_(std::make_unique<Impl>(c, options)) {}
+Simulation::~Simulation() = default;
+
+RunState Simulation::step() { return impl_->step(); }
+RunState Simulation::state() const { return impl_->run_state; }
+double Simulation::time() const { return impl_->state.time; }
+double Simulation::time_step() const { return impl_->state.time_step; }
+std::int64_t Simulation::steps() const { return impl_->state.step; }
+int Simulation::bodies() const { return impl_->scene.bodies(); }
+double Simulation::largest_overlap() const { return impl_->report.overlap; }
+double Simulation::largest_kinetic_per_grain() const { return impl_->report.kinetic_largest; }
+Profile const& Simulation::profile() const { return impl_->profile; }
+
+std::string Simulation::phase() const {
+  if (impl_->state.damped) return "settling";
+  return impl_->state.quiet_since >= 0 ? "releasing" : "running";
+}
+
+LedgerRow Simulation::ledger() const { return make_ledger(impl_->scene, impl_->c.gravity, impl_->state, impl_->work); }
+
+std::vector<std::string> Simulation::messages() { return std::exchange(impl_->messages, {}); }
+
+}  // namespace scree

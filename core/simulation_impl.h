@@ -1,0 +1,41 @@
+// simulation_impl.h: what a Simulation holds; tests look inside.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/contacts.h"
+#include "core/simulation.h"
+#include "core/time_step.h"
+#include "core/watch.h"
+
+namespace scree {
+
+struct Simulation::Impl {
+  Case c;
+  SimulationOptions options;
+  Profile profile;
+  Queue queue;
+  Scene scene;
+  Effects effects;
+  ContactSettings contacts;
+  StepEstimate estimate;
+  State state;
+  Workspace work;
+  WatchReport report;
+  RunState run_state = RunState::running;
+  std::vector<std::string> messages;
+  bool warned_of_share = false;
+
+  Impl(Case const& c_, SimulationOptions const& options_);
+  RunState step();
+  double gravity_size() const;  // [m/s2]; 9.81 where the case has none
+
+ private:
+  void check_limits();
+  void check_time_step();
+  void settle();
+};
+
+}  // namespace scree

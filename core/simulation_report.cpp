@@ -1,0 +1,121 @@
+// simulation_report.cpp: what a Simulation tells: plan, frames, header of the results. See simulation.h.
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/simulation_impl.h"
+
+namespace scree {
+namespace {
+
+template <class T>
+std::int64_t bytes(std::vector<T> const& v) {
+  return static_cast<std::int64_t>(v.size() * sizeof(T));
+}
+
+std::string law_of(Simulation::Impl const& s, int a, int b) {
+  ContactParameters const& p = s.scene.contact[a * s.scene.material.size() + b];
+  std::string text = fmt::format("{} - {}: winkler kappa {:.4g} N/m3, k_t/k_n {:.3g}", s.scene.material[a],
+                                 s.scene.material[b], p.kappa, p.tangential);
+  if (p.friction > 0) text += fmt::format(", friction {:.3g}", p.friction);
+  if (p.damping_nodes > 0) text += fmt::format(", damping ratio {:.3g}", p.damping_nodes);
+  return text;
+}
+
+std::vector<Plan::Array> arrays_of(Simulation::Impl const& s) {
+  std::vector<Plan::Array> arrays = {{"state", bytes(s.state.position) + bytes(s.state.velocity) +
+                                                   bytes(s.state.orientation) + bytes(s.state.angular_momentum)},
+                                     {"boxes", bytes(s.work.box) + bytes(s.work.broad_phase.node)},
+                                     {"pairs", bytes(s.work.pair) + bytes(s.work.result)}};
+  auto const add = [&](bool wanted, char const* name, std::int64_t size) {
+    if (wanted) arrays.push_back({name, size});
+  };
+  add(s.effects.node_contacts, "surface nodes", bytes(s.scene.node_position) + bytes(s.scene.node_area));
+  std::int64_t weights = 0;
+  for (PackedMlp const& net : s.scene.networks.net)
+    for (auto const& w : net.net().weight) weights += bytes(w);
+  for (auto const& rows : s.scene.networks.bias_rows) weights += bytes(rows);
+  add(s.effects.networks, "networks", weights);
+  add(s.effects.node_contacts, "node lists", bytes(s.work.gather.lists.node) + bytes(s.work.gather.lists.side));
+  add(s.effects.friction, "contact history",
+      bytes(s.state.node_history.xi) + bytes(s.state.node_history.node) + bytes(s.state.sphere_history.xi));
+  return arrays;
+}
+
+}  // namespace
+
+Plan Simulation::plan() const {
+  Impl const& s = *impl_;
+  Plan plan;
+  plan.stages = stages_of(s.effects);
+  plan.effects = names_of(s.effects);
+  int const materials = static_cast<int>(s.scene.material.size());
+  for (int a = 0; a < materials; ++a)
+    for (int b = a; b < materials; ++b)
+      if (s.scene.contact[a * materials + b].kappa > 0) plan.law += (plan.law.empty() ? "" : "\n") + law_of(s, a, b);
+  plan.arrays = arrays_of(s);
+  plan.bodies = s.scene.bodies();
+  plan.shapes = static_cast<int>(s.scene.shape.size());
+  plan.networks = static_cast<int>(s.scene.networks.net.size());
+  for (ShapeRecord const& shape : s.scene.shape) plan.nodes_max = std::max(plan.nodes_max, shape.nodes);
+  plan.step = s.state.time_step;
+  plan.steps = static_cast<std::int64_t>(std::ceil(s.c.time.end / s.state.time_step));
+  if (plan.bodies == 0) plan.notes.push_back("the case has no grains");
+  if (std::isfinite(s.estimate.critical)) {
+    plan.notes.push_back(fmt::format(
+        "critical step {:.3g} s from a worst impact of {:.3g} m/s (overlap {:.2g} d); the step "
+        "is {:.2f} of it",
+        s.estimate.critical, s.estimate.speed, s.estimate.overlap, s.state.time_step / s.estimate.critical));
+    double const load = load_in_grain_weights(s.c, s.scene);
+    plan.notes.push_back(
+        fmt::format("load check: at an overlap of 0.01 d the softest grain carries {:.3g} grain weights{}", load,
+                    load < 20 ? "; a taller pile sinks in: raise the stiffness" : ""));
+  }
+  return plan;
+}
+
+ResultsHeader Simulation::results_header() const {
+  Impl const& s = *impl_;
+  ResultsHeader header;
+  header.case_text = to_toml(s.c);
+  header.library = s.scene.library;
+  for (Shape const& shape : s.scene.library.shape) header.shape_name.push_back(shape.name);
+  header.shape = s.scene.shape_of;
+  header.diameter = s.scene.diameter;
+  header.material = s.scene.material_of;
+  header.group = s.scene.group_of;
+  header.replica.assign(s.scene.bodies(), 0);
+  for (PlaneRecord const& plane : s.scene.plane)
+    header.wall.push_back({s.c.wall[plane.wall].name, plane.point, plane.normal});
+  Box& domain = header.domain;
+  domain = {{1e300, 1e300, 1e300}, {-1e300, -1e300, -1e300}};
+  for (int i = 0; i < s.scene.bodies(); ++i) {
+    double const r = s.scene.shape[s.scene.shape_of[i]].bounding_radius * s.scene.diameter[i];
+    for (int k = 0; k < 3; ++k) {
+      domain.min[k] = std::min(domain.min[k], s.state.position[i][k] - r);
+      domain.max[k] = std::max(domain.max[k], s.state.position[i][k] + r);
+    }
+  }
+  for (WallCase const& wall : s.c.wall) {
+    Vec3 const low = wall.kind == WallKind::box ? wall.min : wall.point;
+    Vec3 const high = wall.kind == WallKind::box ? wall.max : wall.point;
+    for (int k = 0; k < 3; ++k) {
+      domain.min[k] = std::min(domain.min[k], low[k]);
+      domain.max[k] = std::max(domain.max[k], high[k]);
+    }
+  }
+  if (s.scene.bodies() == 0 && s.c.wall.empty()) domain = {};
+  return header;
+}
+
+Frame Simulation::frame() const {
+  Impl const& s = *impl_;
+  Frame frame{s.state.time, s.state.step, s.state.position, s.state.orientation, s.state.velocity, {}};
+  for (int i = 0; i < s.scene.bodies(); ++i)
+    frame.spin.push_back(spin_of(to_matrix(s.state.orientation[i]), s.scene.inertia[i], s.state.angular_momentum[i]));
+  return frame;
+}
+
+}  // namespace scree

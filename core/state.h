@@ -1,0 +1,55 @@
+// state.h: everything that changes from step to step and would have to be saved; and the scratch that need not be.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/scene.h"
+#include "kernels/contact_reduce.h"
+#include "kernels/integrate.h"
+
+namespace scree {
+
+struct State {
+  std::vector<Vec3> position, velocity, angular_momentum;
+  std::vector<Quat> orientation;
+  BodyWrenches wrench;  // of the last step: the next one opens with them
+  NodeHistory node_history;
+  SphereHistory sphere_history;
+  std::vector<double> work_damping, work_friction, removed_by_damping;  // since the start [J] (n_bodies)
+  double time = 0, time_step = 0;                                       // [s]
+  std::int64_t step = 0;
+  // Settle schedule.
+  bool damped = false;
+  double quiet_since = -1;  // [s]; -1: not quiet
+  // Ledger.
+  double initial_energy = 0, kinetic_peak = 0;  // [J]
+
+  StateView view() { return {position, orientation, velocity, angular_momentum}; }
+};
+
+struct Workspace {
+  std::vector<Wrench> external;  // constant during a run: gravity
+  std::vector<Box> box;
+  std::vector<double> skin;  // of the pair list [m] (n_bodies)
+  std::vector<Vec3> built_position;
+  std::vector<Quat> built_orientation;
+  BroadPhase broad_phase;
+  std::vector<Pair> pair;
+  std::vector<int> old_pair, old_side;
+  std::vector<char> closed_form;  // (n_pairs)
+  PairsOfBodies pairs_of_bodies;
+  Kinematics kinematics;
+  NodeGather gather;
+  ActiveNodes active;
+  NodeHistory next_node_history;
+  SphereHistory next_sphere_history;
+  std::vector<PairResult> result;
+  std::vector<double> kinetic;  // [J] (n_bodies)
+  std::int64_t pair_rebuilds = 0;
+
+  WrenchesView wrenches(BodyWrenches const& b) const { return {b.elastic, b.damping, b.friction, external}; }
+};
+
+}  // namespace scree

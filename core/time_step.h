@@ -1,0 +1,23 @@
+// time_step.h: the automatic step: a share of the critical step at the worst impact the scene can produce.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "core/scene.h"
+
+namespace scree {
+
+struct StepEstimate {
+  double critical = 0;  // [s]; infinity when nothing can touch
+  double accurate = 0;  // step at which nodes may enter without spoiling the ledger [s]; infinity without nodes
+  double speed = 0;     // of the worst impact [m/s]
+  double overlap = 0;   // it would reach [d]
+};
+
+// Speed from the energy available (start velocities, fall to the lowest wall), overlap of a smooth body of the grain's
+// size at that speed, flat faces by their area; stiffness and lever arms as in critical_time_step().
+StepEstimate estimate_critical_step(Case const& c, Scene const& scene, Placement const& placement);
+
+// Weight the softest material pair carries at 1 % d, in weights of its heaviest grain (design physics.md section 4).
+double load_in_grain_weights(Case const& c, Scene const& scene);
+
+}  // namespace scree

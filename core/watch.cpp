@@ -1,0 +1,55 @@
+// watch.cpp: see watch.h.
+// SPDX-License-Identifier: Apache-2.0
+#include "core/watch.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "kernels/base/parallel.h"
+
+namespace scree {
+namespace {
+
+struct KineticOfBody {
+  SceneView scene;
+  StateView state;
+  Span<double> kinetic;
+
+  SCREE_HD void operator()(int i) const { kinetic[i] = kinetic_energy(scene, state, i); }
+};
+
+}  // namespace
+
+WatchReport watch(Queue const& queue, Scene const& scene, State& state, double g, Workspace& work) {
+  WatchReport report;
+  int const n = scene.bodies();
+  work.kinetic.resize(n);
+  parallel_for(queue, "watch/kinetic", n, KineticOfBody{scene.view(), state.view(), work.kinetic}, 512);
+  ScopedTimer const timer(queue.profile, "watch/reduce", n);
+  for (int i = 0; i < n; ++i) {
+    if (report.not_finite < 0 && !(std::isfinite(work.kinetic[i]) && is_finite(state.position[i])))
+      report.not_finite = i;
+    report.kinetic_total += work.kinetic[i];
+    report.kinetic_largest =
+        std::max(report.kinetic_largest, work.kinetic[i] / (scene.mass[i] * g * scene.diameter[i]));
+  }
+  for (std::size_t k = 0; k < work.pair.size(); ++k) {
+    Pair const p = work.pair[k];
+    double const d = p.with_plane() ? scene.diameter[p.a] : std::min(scene.diameter[p.a], scene.diameter[p.b]);
+    if (work.result[k].overlap > report.overlap * d)
+      report.overlap = work.result[k].overlap / d, report.overlap_pair = static_cast<int>(k);
+  }
+  return report;
+}
+
+std::string describe_body(Scene const& scene, int body) {
+  return "grain " + std::to_string(body) + " (" + scene.library.shape[scene.shape_of[body]].name + ")";
+}
+
+std::string describe_pair(Scene const& scene, Case const& c, Pair pair) {
+  return describe_body(scene, pair.a) + " and " +
+         (pair.with_plane() ? "wall '" + c.wall[scene.plane[pair.plane()].wall].name + "'"
+                            : describe_body(scene, pair.b));
+}
+
+}  // namespace scree

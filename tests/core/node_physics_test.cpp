@@ -1,0 +1,239 @@
+// node_physics_test.cpp: contacts through surface nodes: restitution, blocks that hold or slide, collisions, meters.
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <tuple>
+
+#include "core/simulation_impl.h"
+#include "kernels/restitution.h"
+#include "tests/support/cases.h"
+
+namespace scree {
+namespace {
+
+using namespace testing;
+
+double const pi = 3.141592653589793;
+
+// Rebound of a body dropped with `speed` on a plane along one of its axes, per unit speed.
+double rebound(std::string const& shape, double reach, double zeta, double speed, int nodes) {
+  Case c = rock_case();
+  c.contact[0].damping_ratio = zeta;
+  GrainsCase g = grains_at(shape, {{0, 0, reach * 0.1 + 1e-4}}, 0.1, nodes);
+  g.insert.velocity = {0, 0, -speed};
+  c.grains = {g};
+  c.wall = {floor_at(0)};
+  c.time.end = 1;
+  c.time.safety = 0.1;
+  Simulation s(c, {});
+  bool touched = false;
+  while (s.step() == RunState::running) {
+    touched = touched || s.largest_overlap() > 0;
+    if (touched && s.largest_overlap() == 0) break;
+  }
+  return s.frame().velocity[0].z / speed;
+}
+
+// Validation row 7a: e(zeta) at three speeds, three node counts, and for a 5:1 body, to 2 % (of full speed at small e).
+TEST(NodePhysics, RestitutionDependsOnTheDampingRatioAlone) {
+  double const long_axis = 0.5 * std::cbrt(25.0);  // of ellipsoid 5:1:1 with volume pi/6, in d
+  for (double zeta : {0.1, 0.4, 0.7, 1.0}) {
+    double const e = restitution_of(zeta, DampingPath::nodes);
+    for (double speed : {0.3, 1.0, 3.0})
+      EXPECT_NEAR(rebound("ellipsoid:1:1:1", 0.5, zeta, speed, 1000), e, 0.02) << zeta << " at " << speed << " m/s";
+    for (int nodes : {250, 4000})
+      EXPECT_NEAR(rebound("ellipsoid:1:1:1", 0.5, zeta, 3, nodes), e, 0.02) << zeta << ", " << nodes << " nodes";
+    EXPECT_NEAR(rebound("ellipsoid:1:1:5", long_axis, zeta, 1, 1000), e, 0.02) << zeta << ", on its tip";
+    EXPECT_NEAR(rebound("ellipsoid:5:1:1", long_axis / 5, zeta, 1, 1000), e, 0.02) << zeta << ", on its flank";
+  }
+}
+
+// Validation row 7: a block on an incline holds at friction 2 % above tan(theta) and slides with
+// a = g (sin - mu cos) at 2 % below.
+TEST(NodePhysics, BlockOnAnInclineHoldsOrSlides) {
+  double const theta = 0.4, g = 9.81, d = 0.1;
+  for (double factor : {1.02, 0.98}) {
+    double const mu = factor * std::tan(theta);
+    Case c = rock_case();
+    c.gravity = Vec3{g * std::sin(theta), 0, -g * std::cos(theta)};
+    c.contact[0].friction = mu;
+    c.contact[0].damping_ratio = 0.7;
+    double const half_height = 0.5 * d * std::cbrt(pi / 6 / 4);  // box 2:2:1 of volume pi/6 d^3
+    c.grains = {grains_at("box:2:2:1", {{0, 0, half_height - 1e-6}}, d, 1000)};
+    c.wall = {floor_at(0)};
+    c.time.end = 0.4;
+    Simulation s(c, {});
+    double x_before = 0, t_before = 0, v_before = 0;
+    while (s.step() == RunState::running)
+      if (t_before == 0 && s.time() > 0.25)
+        x_before = s.frame().position[0].x, t_before = s.time(), v_before = s.frame().velocity[0].x;
+    double const span = s.time() - t_before;
+    if (factor > 1) {
+      EXPECT_LT(std::abs(s.frame().position[0].x - x_before) / span, 1e-6 * d);
+    } else {
+      double const a = g * (std::sin(theta) - mu * std::cos(theta));
+      EXPECT_NEAR((s.frame().velocity[0].x - v_before) / span / a, 1, 1e-3);
+    }
+    EXPECT_LT(std::abs(s.ledger().residual), 1e-3 * s.ledger().moved);
+  }
+}
+
+// Validation row 7c: an oblique impact in full sliding takes the tangential impulse mu (1 + e) m v_n.
+TEST(NodePhysics, SlidingImpactTakesTheCoulombImpulse) {
+  double const mu = 0.1, vn = 1, vt = 3;
+  Case c = rock_case();
+  c.contact[0].friction = mu;
+  c.contact[0].damping_ratio = 0.7;
+  GrainsCase g = grains_at("ellipsoid:1:1:1", {{0, 0, 0.0501}}, 0.1, 4000);
+  g.insert.velocity = {vt, 0, -vn};
+  c.grains = {g};
+  c.wall = {floor_at(0)};
+  c.time.end = 0.02;
+  c.time.safety = 0.05;
+  Simulation s(c, {});
+  while (s.step() == RunState::running) {
+  }
+  double const e = s.frame().velocity[0].z / vn;
+  EXPECT_NEAR((vt - s.frame().velocity[0].x) / (mu * (1 + e) * vn), 1, 5e-3);
+  EXPECT_LT(std::abs(s.ledger().residual), 1e-3 * s.ledger().moved);
+}
+
+// Momentum and energy of a frictionless two-body collision that starts with the given poses.
+struct Collision {
+  double momentum = 0, angular_momentum = 0, kinetic = 0, overlap = 0;  // relative changes; overlap in d
+};
+
+Collision collide(std::string const& shape, unsigned seed, double speed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> u(-1, 1);
+  Case c = rock_case();
+  GrainsCase a = grains_at(shape, {{-0.09, 0.01 * u(random), 0.01 * u(random)}}), b = grains_at(shape, {{0.09, 0, 0}});
+  for (GrainsCase* g : {&a, &b}) g->insert.quaternion = {normalized(Quat{u(random), u(random), u(random), u(random)})};
+  b.name = "b";
+  a.insert.velocity = {speed, 0, 0};
+  b.insert.velocity = {-speed, 0.1 * speed, 0};
+  a.insert.spin = Vec3{u(random), u(random), u(random)} * (5 * speed);
+  c.grains = {a, b};
+  c.time.end = 0.16 / speed;
+  Simulation s(c, {});
+  auto const& impl = s.impl();
+  auto const totals = [&](Vec3& p, Vec3& l) {
+    p = l = {};
+    for (int i = 0; i < 2; ++i) {
+      p += impl.state.velocity[i] * impl.scene.mass[i];
+      l += impl.state.angular_momentum[i] + cross(impl.state.position[i], impl.state.velocity[i]) * impl.scene.mass[i];
+    }
+  };
+  Vec3 p0, l0, p1, l1;
+  totals(p0, l0);
+  double const k0 = impl.report.kinetic_total;
+  Collision out;
+  while (s.step() == RunState::running) out.overlap = std::max(out.overlap, s.largest_overlap());
+  EXPECT_EQ(s.largest_overlap(), 0) << "still in contact: prolong the run";
+  totals(p1, l1);
+  double const scale = impl.scene.mass[0] * speed;
+  out.momentum = norm(p1 - p0) / scale;
+  out.angular_momentum = norm(l1 - l0) / (scale * 0.1);
+  out.kinetic = std::abs(impl.report.kinetic_total / k0 - 1);
+  return out;
+}
+
+// Validation row 8, analytic shapes: momenta to 1e-10, kinetic energy to 1e-4 at the automatic step.
+TEST(NodePhysics, CollisionsConserveMomentaAndEnergy) {
+  for (char const* shape : {"ellipsoid:1:0.8:0.6", "ellipsoid:1:0.5:0.5", "superellipsoid:1:0.8:0.7:0.6"})
+    for (unsigned seed = 0; seed < 5; ++seed) {
+      Collision const r = collide(shape, seed, 1);
+      EXPECT_GT(r.overlap, 1e-3);
+      EXPECT_LT(r.momentum, 1e-10);
+      EXPECT_LT(r.angular_momentum, 1e-10);
+      EXPECT_LT(r.kinetic, 1e-4) << shape << " " << seed;
+    }
+}
+
+Case heap() {
+  Case c = rock_case();
+  c.gravity = Vec3{0, 0, -9.81};
+  c.contact[0].friction = 0.5;
+  c.contact[0].damping_ratio = 0.7;
+  GrainsCase g = grains_at("ellipsoid:1:0.8:0.6", {}, 0.1, 250);
+  g.shapes = {"ellipsoid:1:0.8:0.6", "ellipsoid:1:1:0.5", "sphere"};
+  g.count = 8;
+  g.insert.kind = InsertCase::Kind::lattice;
+  g.insert.orientation = Orientation::random;
+  g.insert.velocity = {0.8, 0.4, -4};
+  g.insert.box = {{0, 0, 0}, {0.28, 0.28, 1.2}};
+  c.grains = {g};
+  c.wall = {open_box({0, 0, 0}, {0.28, 0.28, 2})};
+  c.time.end = 0.03;
+  return c;
+}
+
+TEST(NodePhysics, NodeListsGiveTheContactSetsOfBruteForce) {
+  Case const c = heap();
+  Simulation lists(c, {}), brute(c, {.threads = 2, .brute_force = true});
+  long contacts = 0;
+  auto const active = [](Simulation& s) {
+    std::vector<std::tuple<int, int, int>> found;
+    auto const& w = s.impl().work;
+    for (std::size_t side = 0; side < w.gather.lists.side.size(); ++side)
+      for (int i = w.active.first[side]; i < w.active.first[side + 1]; ++i)
+        found.push_back({w.gather.lists.side[side].carrier, w.gather.lists.side[side].partner, w.active.node[i]});
+    std::sort(found.begin(), found.end());
+    return found;
+  };
+  while (lists.state() == RunState::running) {
+    lists.step();
+    brute.step();
+    ASSERT_EQ(active(lists), active(brute)) << "at step " << lists.steps();
+    contacts += active(lists).size();
+  }
+  EXPECT_GT(contacts, 1000);
+  EXPECT_LT(lists.impl().work.active.queries, brute.impl().work.active.queries / 20);
+  EXPECT_EQ(lists.frame().position, brute.frame().position);
+}
+
+TEST(NodePhysics, ThreadsDoNotChangeTheBits) {
+  Case const c = heap();
+  Simulation one(c, {.threads = 1}), two(c, {.threads = 2}), four(c, {.threads = 4});
+  while (one.state() == RunState::running)
+    for (Simulation* s : {&one, &two, &four}) s->step();
+  EXPECT_EQ(one.frame().position, two.frame().position);
+  EXPECT_EQ(one.frame().orientation, two.frame().orientation);
+  EXPECT_EQ(one.frame().position, four.frame().position);
+  EXPECT_EQ(one.ledger().residual, two.ledger().residual);
+  EXPECT_LT(std::abs(one.ledger().residual), 1e-3 * one.ledger().moved);
+}
+
+TEST(NodePhysics, FrictionLossMeasuredAtTheNodesAgreesWithTheLedger) {
+  Case const c = heap();
+  Simulation s(c, {});
+  double lost = 0;
+  while (s.step() == RunState::running)
+    for (PairResult const& r : s.impl().work.result) lost += r.friction_loss;
+  EXPECT_GT(lost, 0.01 * s.ledger().moved);
+  // Work over a step is taken at two velocities half a step apart.
+  EXPECT_NEAR(lost, s.ledger().friction, 0.02 * s.ledger().moved);
+}
+
+TEST(NodePhysics, PlansHoldWhatTheSceneNeeds) {
+  Case c = rock_case();
+  c.grains = {grains_at("ellipsoid:1:0.8:0.6", {{0, 0, 1}})};
+  c.wall = {floor_at(0)};
+  EXPECT_EQ(Simulation(c, {}).plan().stages,
+            (std::vector<std::string>{"bounds", "broad_phase", "node_gather", "sdf_analytic", "contact_reduce",
+                                      "integrate", "watch"}));
+  auto const has_history = [](Plan const& plan) {
+    for (auto const& array : plan.arrays)
+      if (array.name == "contact history") return true;
+    return false;
+  };
+  EXPECT_FALSE(has_history(Simulation(c, {}).plan()));
+  c.contact[0].friction = 0.3;
+  EXPECT_TRUE(has_history(Simulation(c, {}).plan()));
+}
+
+}  // namespace
+}  // namespace scree
