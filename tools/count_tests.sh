@@ -7,7 +7,7 @@ failed=0
 # Adds to `passed` and `failed`; status 0 only when tests ran and none failed. Counts come from ctest's JUnit file,
 # which also holds what a crash of ctest's own leaves out: no file, no success.
 run_tests() {
-  report="$1/ctest.xml"
+  report="$(cd "$1" && pwd)/ctest.xml"
   rm -f "$report"
   ctest --test-dir "$1" --output-on-failure -j2 --output-junit "$report" || true
   if [ ! -f "$report" ]; then

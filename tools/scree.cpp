@@ -76,6 +76,19 @@ void add_info(CLI::App& app, InfoArguments& a, std::function<int()>& chosen) {
   c->callback([&] { chosen = [&] { return info_command(a.file, a.recover); }; });
 }
 
+void add_render(CLI::App& app, RenderArguments& a, std::function<int()>& chosen) {
+  CLI::App* const c = app.add_subcommand("render", "Draw a frame of a results file");
+  c->add_option("results", a.results, "results.h5")->required();
+  c->add_option("-o,--output", a.picture, "Picture to write (PNG)")->required();
+  c->add_option("--frame", a.frame, "Frame number; negative counts from the end")->capture_default_str();
+  c->add_option("--size", a.size, "Width x height in pixels")->capture_default_str();
+  c->add_option("--ids", a.ids,
+                "Also write which body each pixel shows: number + 1 = red + 256 green + 65536 blue, 0: none");
+  c->add_option("--threads", a.threads, "CPU threads (default: all cores)")->check(CLI::Range(1, 4096));
+  c->add_flag("--recover", a.recover, "Read the unfinished file of a run that was killed");
+  c->callback([&] { chosen = [&] { return render_command(a); }; });
+}
+
 void add_export(CLI::App& app, ExportArguments& a, std::function<int()>& chosen) {
   CLI::App* const c = app.add_subcommand("export", "Write a results file for ParaView (PVD + VTP)");
   c->add_option("results", a.results, "results.h5")->required();
@@ -127,11 +140,13 @@ int main(int argc, char** argv) {
   RunArguments run;
   CaseArguments plan, check;
   InfoArguments info;
+  RenderArguments render;
   ExportArguments exported;
   add_run(app, run, chosen);
   add_plan(app, plan, chosen);
   add_check(app, check, chosen);
   add_info(app, info, chosen);
+  add_render(app, render, chosen);
   add_export(app, exported, chosen);
   try {
     app.parse(argc, argv);

@@ -1,11 +1,9 @@
-// scree_show.cpp: the commands that look and do not step: plan, check, info, render, export.
+// scree_show.cpp: the commands that look and do not step: plan, check, info, export.
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
-#include <optional>
 
 #include "core/case.h"
 #include "core/paraview.h"

@@ -329,6 +329,20 @@ TEST_F(Program, InterruptLeavesCompleteFiles) {
   EXPECT_TRUE(fs::exists(folder_ / "long.out/stages.json"));
 }
 
+TEST_F(Program, RenderDrawsAFrameAndRefusesNonsense) {
+  write("small.toml", small_case);
+  ASSERT_EQ(scree("run small.toml").code, 0);
+  Outcome const drawn = scree("render small.out/results.h5 -o picture.png --ids ids.png --frame 0 --size 64x48");
+  EXPECT_EQ(drawn.code, 0) << drawn.text;
+  EXPECT_NE(drawn.text.find("100 % of 1 grains visible"), std::string::npos) << drawn.text;
+  for (char const* name : {"picture.png", "ids.png"}) EXPECT_EQ(read_file(folder_ / name).substr(1, 3), "PNG") << name;
+  EXPECT_EQ(scree("render small.out/results.h5 -o x.png --frame 99").code, 2);
+  EXPECT_EQ(scree("render small.out/results.h5 -o x.png --size 64").code, 2);
+  EXPECT_EQ(scree("render absent.h5 -o x.png").code, 2);
+  EXPECT_EQ(scree("render small.out/results.h5 -o /proc/x.png --size 64x48").code, 4);
+  EXPECT_FALSE(fs::exists(folder_ / "x.png"));
+}
+
 TEST_F(Program, InfoReadsModelsAndRefusesOtherFiles) {
   write_small_model("model.h5");
   Outcome const model = scree("info model.h5");
