@@ -170,7 +170,7 @@ class Painter {
     for (std::size_t k = 0; k < point.size(); ++k) sun[k] = hits[k].body < 0 && dot(normal[k], sun_) > 0 ? 1 : 0;
 
     open.assign(point.size(), 1.0);
-    double weight = 0.95;
+    double weight = 0.80;
     std::vector<Vec3> probe(point.size());
     std::vector<double> clear;
     for (double const h : {0.08, 0.2, 0.42}) {
@@ -180,7 +180,7 @@ class Painter {
         double const free = std::min(clear[k], stage_.height(probe[k]));
         open[k] *= 1 - weight * std::clamp(1 - free / (h * d), 0.0, 1.0);
       }
-      weight *= 0.72;
+      weight *= 0.75;
     }
   }
 
