@@ -84,7 +84,7 @@ Library coded_library(int shapes) {
 
 template <class T>
 bool same_bits(std::vector<T> const& a, std::vector<T> const& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
+  return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
 }
 bool same_bits(Vec3 a, Vec3 b) { return std::memcmp(&a, &b, sizeof(a)) == 0; }
 
