@@ -1,5 +1,6 @@
 # count_tests.sh: run_tests BUILD_FOLDER: ctest with two jobs; sets `passed` and `failed`. Sourced by test.sh and .ci/run.
 # SPDX-License-Identifier: Apache-2.0
+# shellcheck shell=sh disable=SC2034
 
 passed=0
 failed=0

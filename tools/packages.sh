@@ -1,5 +1,6 @@
 # packages.sh: what Scree is built from, as Debian 12 packages; sourced by quickstart.sh and test.sh.
 # SPDX-License-Identifier: Apache-2.0
+# shellcheck shell=sh disable=SC2034
 
 engine_packages="build-essential cmake ninja-build ccache libhdf5-dev libtomlplusplus-dev libfmt-dev libcli11-dev libpng-dev zlib1g-dev libeigen3-dev libthrust-dev"
 test_packages="libgtest-dev libbenchmark-dev clang-format-14 libcgal-dev libtorch-dev libopenblas0-pthread python3-vtk9"
