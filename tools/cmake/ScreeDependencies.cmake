@@ -2,9 +2,11 @@
 include(CheckLanguage)
 
 set(SCREE_HAVE_CUDA OFF)
+set(SCREE_CUDA_ARCHITECTURES "90" CACHE STRING "Compute capabilities to build for, e.g. 80;86;89;90")
 if(NOT SCREE_CUDA STREQUAL "OFF")
   check_language(CUDA)
   if(CMAKE_CUDA_COMPILER)
+    set(CMAKE_CUDA_ARCHITECTURES ${SCREE_CUDA_ARCHITECTURES})
     enable_language(CUDA)
     find_package(CUDAToolkit REQUIRED)
     set(SCREE_HAVE_CUDA ON)
