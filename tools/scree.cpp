@@ -64,16 +64,23 @@ void add_check(CLI::App& app, CaseArguments& a, std::function<int()>& chosen) {
   check->callback([&] { chosen = [&] { return check_command(a); }; });
 }
 
-struct InfoArguments {
-  std::filesystem::path file;
-  bool recover = false;
-};
-
 void add_info(CLI::App& app, InfoArguments& a, std::function<int()>& chosen) {
   CLI::App* const c = app.add_subcommand("info", "Describe a results or model file");
   c->add_option("file", a.file, "results.h5 or model.h5")->required();
   c->add_flag("--recover", a.recover, "Read the unfinished file of a run that was killed");
-  c->callback([&] { chosen = [&] { return info_command(a.file, a.recover); }; });
+  CLI::Option* const overlap = c->add_flag(
+      "--overlap", a.overlap, "Measure how deep grains are in each other and in walls, apart from the nodes");
+  c->add_option("--points", a.points, "Surface points a grain of that measurement")
+      ->check(CLI::Range(100, 10'000'000))
+      ->capture_default_str()
+      ->needs(overlap);
+  c->add_option("--frame", a.frame, "Frame of that measurement; negative counts from the end")
+      ->capture_default_str()
+      ->needs(overlap);
+  c->add_option("--threads", a.threads, "CPU threads of that measurement (default: all cores)")
+      ->check(CLI::Range(1, 4096))
+      ->needs(overlap);
+  c->callback([&] { chosen = [&] { return info_command(a); }; });
 }
 
 void add_render(CLI::App& app, RenderArguments& a, std::function<int()>& chosen) {

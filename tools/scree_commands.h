@@ -46,6 +46,15 @@ struct RenderArguments {
   bool recover = false;
 };
 
+struct InfoArguments {
+  std::filesystem::path file;  // results or model
+  bool recover = false;
+  bool overlap = false;  // measure the overlaps of a frame, see core/overlap_meter.h
+  int points = 20000;    // a grain
+  int frame = -1;
+  int threads = 0;
+};
+
 struct ExportArguments {
   std::filesystem::path results, folder;  // folder empty: "paraview" beside the results
   bool recover = false;
@@ -54,7 +63,7 @@ struct ExportArguments {
 int run_command(RunArguments const& arguments);
 int plan_command(CaseArguments const& arguments);
 int check_command(CaseArguments const& arguments);
-int info_command(std::filesystem::path const& file, bool recover);
+int info_command(InfoArguments const& arguments);
 int render_command(RenderArguments const& arguments);
 int export_command(ExportArguments const& arguments);
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "core/case.h"
+#include "core/overlap_meter.h"
 #include "core/paraview.h"
 #include "core/results.h"
 #include "core/simulation.h"
@@ -74,6 +75,30 @@ void describe_results(fs::path const& file, bool recover) {
   if (seconds > 0) fmt::print("{}", stage_table(stages, seconds));
 }
 
+std::string place(OverlapAt const& at, ResultsHeader const& h) {
+  if (at.a < 0) return "no contact";
+  std::string const other = at.b < 0 ? "wall '" + h.wall[-1 - at.b].name + "'" : fmt::format("grain {}", at.b);
+  return fmt::format("{:.4f} % d, grain {} and {}", 100 * at.depth, at.a, other);
+}
+
+void print_overlap(InfoArguments const& arguments) {
+  ResultsReader const reader(arguments.file, arguments.recover);
+  ResultsHeader const& h = reader.header();
+  int const frames = reader.frames();
+  if (arguments.frame >= frames || arguments.frame < -frames)
+    throw InputError(
+        {fmt::format("{}: --frame {}: there are {} frames", arguments.file.string(), arguments.frame, frames)});
+  Frame const frame = reader.frame(arguments.frame);
+  CaseArguments machine;
+  machine.threads = arguments.threads;
+  OverlapReport const r = measure_overlap(h, frame, arguments.points, choose_threads(machine));
+  fmt::print("overlap at t = {:g} s, {} surface points a grain, against phi in double; d of the smaller grain\n",
+             frame.time, grouped(arguments.points));
+  fmt::print("  grain - grain  {}\n  grain - wall   {}\n", place(r.grain_grain, h), place(r.grain_wall, h));
+  fmt::print("  mean {:.4f} % d, 99th percentile {:.4f} % d of {} contacts ({} with walls), {:.2f} a grain\n",
+             100 * r.mean, 100 * r.p99, grouped(r.contacts), grouped(r.wall_contacts), r.coordination);
+}
+
 bool is_model(fs::path const& file) {
   try {
     check_container(file, "scree.model", 1);
@@ -113,11 +138,16 @@ int check_command(CaseArguments const& arguments) {
   return exit_ok;
 }
 
-int info_command(fs::path const& file, bool recover) {
-  if (is_model(file))
-    describe_model(file);
+int info_command(InfoArguments const& arguments) {
+  bool const model = is_model(arguments.file);
+  if (arguments.overlap && model)
+    throw InputError({arguments.file.string() + ": --overlap needs a results file, this is a model file"});
+  if (arguments.overlap)
+    print_overlap(arguments);
+  else if (model)
+    describe_model(arguments.file);
   else
-    describe_results(file, recover);
+    describe_results(arguments.file, arguments.recover);
   return exit_ok;
 }
 
