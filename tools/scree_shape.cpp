@@ -32,7 +32,7 @@ enum ExitCode : int { exit_ok = 0, exit_bad_input = 2, exit_file = 4 };
 
 struct ImportArguments {
   fs::path mesh, output;
-  int largest_hole = 200;
+  int largest_hole = 30;
   bool normalise = false, force = false;
 };
 

@@ -45,7 +45,7 @@ struct Arguments {
 
 double parameter_of(Arguments const& a) {
   if (a.parameter > 0) return a.parameter;
-  return a.activation == "sine" ? 5 : 0.01;
+  return a.activation == "sine" ? 8 : 0.01;
 }
 
 // Everything that can go wrong with the output is said before minutes are spent on it.
@@ -99,7 +99,7 @@ class Reporter {
     printed_ = r.seconds;
     double const left = r.seconds / r.step * (r.steps - r.step);
     fmt::print(
-        "epoch {:4d}  step {:6d}/{}  loss {:.3e}  test MAE {:.3e} (worst {:.3e}, best mean {:.3e})  {:.0f} s, {:.0f} s "
+        "epoch {:4d}  step {:6d}/{}  loss {:.3e}  test MAE {:.3e} (worst {:.3e}, best {:.3e})  {:.0f} s, {:.0f} s "
         "left\n",
         r.epoch, r.step, r.steps, r.loss, r.mean_mae, r.worst_mae, best_, r.seconds, left);
     std::fflush(stdout);
@@ -185,7 +185,7 @@ void add_training_options(CLI::App& c, Arguments& a) {
   c.add_option("--activation", a.activation, "sine or leaky_relu")
       ->check(CLI::IsMember({"sine", "leaky_relu"}))
       ->capture_default_str();
-  c.add_option("--parameter", a.parameter, "omega of sine (default 5), slope of leaky_relu (default 0.01)");
+  c.add_option("--parameter", a.parameter, "omega of sine (default 8), slope of leaky_relu (default 0.01)");
   CLI::Option* const steps = c.add_option("--steps", t.steps, "Optimiser steps")->capture_default_str();
   c.add_option("--seconds", a.seconds, "Choose the steps so that training takes about this long [s]")->excludes(steps);
   c.add_option("--rows", t.rows, "Samples of a work unit")->capture_default_str();
@@ -231,7 +231,9 @@ int main(int argc, char** argv) {
   many.train.code_size = 10;
   many.train.width = 64;
   many.train.layers = 6;
-  many.train.steps = 60000;
+  many.train.steps = 24000;
+  many.train.rows = 1000;  // 50 a shape
+  many.train.rate = 1.2e-2;
 
   CLI::App* const f = app.add_subcommand("fit", "One network for one closed mesh (SingleNetSDF)");
   f->add_option("mesh", single.mesh, "Closed mesh (.stl, .obj), any unit; scree-shape import repairs simple defects")

@@ -28,6 +28,6 @@ MeshReport check_mesh(TriangleMesh const& mesh, bool intersections = true);
 // Weld equal vertices, drop degenerate and duplicate triangles, orient, stitch, keep the component of most triangles,
 // fill holes of at most `largest_hole` edges, turn the right side out. `actions` (may be null) receives what was done,
 // one sentence each. Throws std::runtime_error naming what is left if the result still bounds no solid.
-TriangleMesh repair_mesh(TriangleMesh const& mesh, std::vector<std::string>* actions = nullptr, int largest_hole = 200);
+TriangleMesh repair_mesh(TriangleMesh const& mesh, std::vector<std::string>* actions = nullptr, int largest_hole = 30);
 
 }  // namespace scree

@@ -107,9 +107,6 @@ TEST_P(Export, ReferenceEqualsTorch) {
       // float arithmetic over sums of 24 terms of order 1: about 24 * 6e-8 a layer.
       EXPECT_NEAR(out.phi[s][i].item<double>(), phi, 1e-5);
       EXPECT_NEAR(out.slope[s][i].item<double>(), gradient.x, 1e-4);
-      // Folding a code is exact: the same as a network that takes the code as input.
-      std::vector<float> const unfolded = fold_code(net, decoder.codes()[s]);
-      EXPECT_EQ(unfolded, bias);
     }
   }
   EXPECT_EQ(decoder.forward(blocks[0].point, {}).phi.sub(out.phi).abs().max().item<double>(), 0);
@@ -128,7 +125,7 @@ TEST_P(Export, GradientOfTheLossIsRight) {
   for (int i = 0; i < 16; ++i) {
     samples.point.push_back({0.05 * i - 0.4, 0.3 * std::sin(i), 0.2 * std::cos(i)});
     samples.phi.push_back(0.1);
-    samples.gradient.push_back(normalized({std::cos(i), 1, std::sin(i)}));
+    samples.gradient.push_back(normalized(Vec3{std::cos(i), 1, std::sin(i)}));
   }
   SampleBlock const block = make_blocks({samples}, 16).front();
   auto const loss = [&] {

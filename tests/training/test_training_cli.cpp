@@ -1,0 +1,112 @@
+// test_training_cli.cpp: scree-train and scree-shape as a user meets them: files, exit codes, one clear message.
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "shapes/mesh/icosphere.h"
+#include "shapes/mesh/mesh_check.h"
+#include "shapes/mesh_files.h"
+#include "shapes/model_file.h"
+
+namespace scree {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string contents(fs::path const& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+class TrainingPrograms : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::temp_directory_path() / ("scree_cli_" + std::to_string(::getpid()));
+    fs::create_directories(folder_);
+    TriangleMesh mesh = icosphere(2);
+    for (Vec3& v : mesh.vertex) v.x *= 1.4;
+    write_mesh(folder_ / "closed.stl", mesh);
+    mesh.triangle.pop_back();
+    write_mesh(folder_ / "open.stl", mesh);
+    mesh.triangle.resize(mesh.triangle.size() / 2);
+    write_mesh(folder_ / "half.stl", mesh);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  // Exit code; what the program said, both streams, is in said_.
+  int run(std::string const& program, std::string const& arguments) {
+    fs::path const log = folder_ / "said.txt";
+    std::string const command = "cd '" + folder_.string() + "' && '" + program + "' " + arguments + " > said.txt 2>&1";
+    int const status = std::system(command.c_str());
+    said_ = contents(log);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+  bool says(std::string const& text) const { return said_.find(text) != std::string::npos; }
+
+  fs::path folder_;
+  std::string said_;
+  std::string const tiny_ = " --layers 2 --width 16 --rows 128 --samples 2000 ";
+};
+
+TEST_F(TrainingPrograms, FitThenInspect) {
+  ASSERT_EQ(run(SCREE_TRAIN, "fit closed.stl -o rock.h5 --steps 300" + tiny_), 0) << said_;
+  Library const library = read_model(folder_ / "rock.h5");
+  ASSERT_EQ(library.shape.size(), 1u);
+  EXPECT_EQ(library.shape[0].name, "closed");
+  EXPECT_EQ(library.shape[0].certificate.source, "mesh closed.stl");
+  EXPECT_GT(library.shape[0].certificate.mae, 0);
+  EXPECT_EQ(run(SCREE_SHAPE, "inspect rock.h5 --nodes 200"), 0) << said_;
+  EXPECT_TRUE(says("closed")) << said_;
+
+  std::string const before = contents(folder_ / "rock.h5");
+  EXPECT_EQ(run(SCREE_TRAIN, "fit closed.stl -o rock.h5 --steps 3" + tiny_), 2);
+  EXPECT_TRUE(says("--force")) << said_;
+  EXPECT_EQ(contents(folder_ / "rock.h5"), before);
+  EXPECT_EQ(run(SCREE_SHAPE, "inspect rock.h5 --shape nobody"), 2);
+
+  // Damage: half a file, and a byte changed.
+  std::ofstream(folder_ / "short.h5", std::ios::binary) << before.substr(0, before.size() / 2);
+  EXPECT_EQ(run(SCREE_SHAPE, "inspect short.h5"), 2) << said_;
+  EXPECT_TRUE(says("short.h5")) << said_;
+  std::string changed = before;
+  changed[changed.size() / 2] = static_cast<char>(changed[changed.size() / 2] ^ 1);
+  std::ofstream(folder_ / "changed.h5", std::ios::binary) << changed;
+  EXPECT_EQ(run(SCREE_SHAPE, "inspect changed.h5"), 2) << said_;
+}
+
+TEST_F(TrainingPrograms, BadInputGetsOneMessageAndLeavesNothing) {
+  EXPECT_EQ(run(SCREE_TRAIN, "fit nowhere.stl -o rock.h5"), 2);
+  EXPECT_TRUE(says("nowhere.stl")) << said_;
+  EXPECT_EQ(run(SCREE_TRAIN, "fit open.stl -o rock.h5"), 2);
+  EXPECT_TRUE(says("open along 3 edges")) << said_;
+  EXPECT_EQ(run(SCREE_TRAIN, "fit closed.stl -o rock.h5 --width 65"), 2);
+  EXPECT_EQ(run(SCREE_TRAIN, "fit closed.stl -o rock.h5 --steps 10 --seconds 1"), 2);
+  EXPECT_EQ(run(SCREE_TRAIN, "fit closed.stl"), 2);
+  EXPECT_EQ(run(SCREE_TRAIN, "fit closed.stl -o nowhere/rock.h5"), 4);
+  EXPECT_TRUE(says("nowhere")) << said_;
+  EXPECT_EQ(run(SCREE_SHAPE, "inspect nowhere.h5"), 2);
+  EXPECT_FALSE(fs::exists(folder_ / "rock.h5"));
+  EXPECT_EQ(run(SCREE_TRAIN, "--version"), 0);
+  EXPECT_TRUE(says("GPL-3")) << said_;
+}
+
+TEST_F(TrainingPrograms, ImportRepairsAndRefuses) {
+  EXPECT_EQ(run(SCREE_SHAPE, "import open.stl -o clean.stl --normalise"), 0) << said_;
+  EXPECT_TRUE(says("filled a hole of 3 edges")) << said_;
+  EXPECT_TRUE(check_mesh(read_mesh(folder_ / "clean.stl")).defects.empty());
+  EXPECT_EQ(run(SCREE_SHAPE, "import half.stl -o half_clean.stl --largest-hole 4"), 2);
+  EXPECT_TRUE(says("open")) << said_;
+  EXPECT_FALSE(fs::exists(folder_ / "half_clean.stl"));
+  EXPECT_EQ(run(SCREE_SHAPE, "import open.stl -o clean.stl"), 2);
+  EXPECT_TRUE(says("--force")) << said_;
+}
+
+}  // namespace
+}  // namespace scree
