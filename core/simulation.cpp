@@ -14,7 +14,8 @@
 
 namespace scree {
 
-Simulation::Impl::Impl(Case const& c_, SimulationOptions const& options_) : c(c_), options(options_) {
+Simulation::Impl::Impl(Case const& c_, SimulationOptions const& options_, Frame const* start)
+    : c(c_), options(options_) {
   queue.threads = std::max(1, options.threads);
   queue.profile = &profile;
   Placement placement;
@@ -22,6 +23,12 @@ Simulation::Impl::Impl(Case const& c_, SimulationOptions const& options_) : c(c_
   effects = effects_of(c, scene);
   contacts.brute_force = options.brute_force;
   int const n = scene.bodies();
+  estimate = estimate_critical_step(c, scene, placement);
+  if (start) {
+    if (start->position.size() != std::size_t(n))
+      throw InputError({fmt::format("the starting frame has {} bodies, the case {}", start->position.size(), n)});
+    placement = {start->position, start->velocity, start->spin, start->orientation};
+  }
   state.position = placement.position;
   state.orientation = placement.orientation;
   state.velocity = placement.velocity;
@@ -32,7 +39,6 @@ Simulation::Impl::Impl(Case const& c_, SimulationOptions const& options_) : c(c_
   for (auto* v : {&state.work_damping, &state.work_friction, &state.removed_by_damping}) v->assign(n, 0);
   work.external.assign(n, {});
   if (effects.gravity) apply_gravity(queue, scene.view(), *c.gravity, work.external);
-  estimate = estimate_critical_step(c, scene, placement);
   // Free flight needs no small step, but output does: at least a hundred steps a run.
   state.time_step =
       c.time.step ? *c.time.step : std::min({c.time.safety * estimate.critical, estimate.accurate, c.time.end / 100});
@@ -125,7 +131,10 @@ void Simulation::Impl::settle() {
   if (state.time - state.quiet_since >= s.hold) run_state = RunState::at_rest;
 }
 
-Simulation::Simulation(Case const& c, SimulationOptions const& options) : impl_(std::make_unique<Impl>(c, options)) {}
+Simulation::Simulation(Case const& c, SimulationOptions const& options)
+    : impl_(std::make_unique<Impl>(c, options, nullptr)) {}
+Simulation::Simulation(Case const& c, SimulationOptions const& options, Frame const& start)
+    : impl_(std::make_unique<Impl>(c, options, &start)) {}
 Simulation::~Simulation() = default;
 
 RunState Simulation::step() { return impl_->step(); }

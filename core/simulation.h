@@ -47,6 +47,9 @@ class Simulation {
  public:
   // Reads the model files the case names. Throws InputError for everything wrong with the case.
   Simulation(Case const& c, SimulationOptions const& options);
+  // The same run from the poses and velocities of `start` instead of the case's own, at time 0 and without contact
+  // history; the time step is still the one the case asks for. Throws InputError, also for another number of bodies.
+  Simulation(Case const& c, SimulationOptions const& options, Frame const& start);
   ~Simulation();
 
   Plan plan() const;

@@ -28,7 +28,7 @@ struct Simulation::Impl {
   std::vector<std::string> messages;
   bool warned_of_share = false;
 
-  Impl(Case const& c_, SimulationOptions const& options_);
+  Impl(Case const& c_, SimulationOptions const& options_, Frame const* start);
   RunState step();
   double gravity_size() const;  // [m/s2]; 9.81 where the case has none
 

@@ -155,6 +155,23 @@ TEST(NodePhysics, ThreadsDoNotChangeTheBits) {
   EXPECT_LT(std::abs(one.ledger().residual), 1e-3 * one.ledger().moved);
 }
 
+TEST(NodePhysics, ARunStartsFromAnyFrame) {
+  Case const c = heap();
+  Simulation whole(c, {});
+  for (int k = 0; k < 20; ++k) whole.step();
+  Frame const frame = whole.frame();
+  Simulation again(c, {}, frame);
+  EXPECT_EQ(again.time_step(), whole.time_step());
+  EXPECT_EQ(again.time(), 0);
+  EXPECT_EQ(again.frame().position, frame.position);
+  EXPECT_EQ(again.frame().velocity, frame.velocity);
+  for (std::size_t i = 0; i < frame.spin.size(); ++i)  // through the angular momentum and back
+    EXPECT_LT(norm(again.frame().spin[i] - frame.spin[i]), 1e-12 * (1 + norm(frame.spin[i])));
+  Frame other = frame;
+  other.position.pop_back();
+  EXPECT_THROW(Simulation(c, {}, other), InputError);
+}
+
 TEST(NodePhysics, FrictionLossMeasuredAtTheNodesAgreesWithTheLedger) {
   Case const c = heap();
   Simulation s(c, {});
