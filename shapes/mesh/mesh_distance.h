@@ -27,7 +27,7 @@ class MeshDistance {
   Sample at(Vec3 point) const;
 
   // The same for many points (n each; `gradient` may be empty), on `threads` OpenMP threads. The result does not depend
-  // on the number of threads. About 5 us a point and thread for 10,000 triangles.
+  // on the number of threads. 4 us a point and thread for 36 triangles, 30 to 40 us for 20,000.
   void evaluate(Span<const Vec3> point, Span<double> phi, Span<Vec3> gradient, int threads = 1) const;
 
  private:
