@@ -1,5 +1,6 @@
-// cgal_mesh.h: conversion between TriangleMesh and CGAL's half-edge mesh; included by the .cpp files of this folder
-// only. SPDX-License-Identifier: Apache-2.0
+// cgal_mesh.h: TriangleMesh to and from CGAL's half-edge mesh.
+// Included by the .cpp files of this folder only.
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
