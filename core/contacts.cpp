@@ -96,8 +96,9 @@ void evaluate_contacts(Queue const& queue, Scene const& scene, Effects const& ef
   ContactOptions const options{dt, settings.normalise_gradient};
   work.result.resize(work.pair.size());
   if (effects.node_contacts) {
-    update_node_lists(queue, view, now, kinematics, scene.networks, {dt, settings.brute_force}, work.gather);
-    find_active_nodes(queue, view, now, kinematics, scene.networks, work.gather.lists, work.active);
+    GatherOptions const gather{dt, settings.brute_force};
+    update_node_lists(queue, view, now, kinematics, scene.networks, gather, work.gather);
+    find_active_nodes(queue, view, now, kinematics, scene.networks, gather, work.gather.lists, work.active);
     reduce_node_contacts(queue, view, now, kinematics, options, work.pair, work.closed_form, work.gather.lists,
                          work.active, state.node_history, work.next_node_history, work.result);
   }

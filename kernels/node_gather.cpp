@@ -23,42 +23,65 @@ struct KinematicsOfBody {
   }
 };
 
-struct ListedPoint {
+// Listed nodes that are due: counts them, or fills their points.
+struct DueNodes {
   SceneView scene;
   StateView state;
   KinematicsView kinematics;
   Span<const Side> side;
+  Span<const double> travelled;
   Span<const int> first, node;
+  Span<const double> due;
+  Span<int> count;
+  Span<const int> due_first;
+  Span<int> entry;  // of the list; empty: count only
   Span<Vec3> point;
-  Span<int> partner, listed_side;
+  Span<int> partner;
 
   SCREE_HD void operator()(int s) const {
     int const base = scene.shape_record(side[s].carrier).first_node;
+    int n = 0;
     for (int i = first[s]; i < first[s + 1]; ++i) {
-      point[i] = point_in_partner(scene, state, kinematics, side[s], scene.nodes.position[base + node[i]]);
-      partner[i] = side[s].partner;
-      listed_side[i] = s;
+      if (due[i] > travelled[s]) continue;
+      if (!entry.empty()) {
+        int const at = due_first[s] + n;
+        entry[at] = i;
+        point[at] = point_in_partner(scene, state, kinematics, side[s], scene.nodes.position[base + node[i]]);
+        partner[at] = side[s].partner;
+      }
+      ++n;
     }
+    if (entry.empty()) count[s] = n;
   }
 };
 
-struct CountActive {
-  Span<const int> first;
+// Counts the nodes inside and puts the others off until they can be.
+struct NextDue {
+  SceneView scene;
+  Span<const Side> side;
+  Span<const double> travelled;
+  bool brute_force;
+  Span<const int> due_first, entry;
   Span<const double> phi;
+  Span<double> due;
   Span<int> count;
 
   SCREE_HD void operator()(int s) const {
     int n = 0;
-    for (int i = first[s]; i < first[s + 1]; ++i) n += phi[i] > 0;
+    for (int i = due_first[s]; i < due_first[s + 1]; ++i) {
+      n += phi[i] > 0;
+      double const way = way_to_contact(scene, side[s], phi[i]);
+      due[entry[i]] = brute_force || way <= 0 ? 0 : travelled[s] + way;
+    }
     count[s] = n;
   }
 };
 
 struct FillActive {
-  Span<const int> listed_first, listed_node;
+  Span<const int> due_first, entry, listed_node;
   Span<const double> phi;
-  Span<const Vec3> listed_point;
-  Span<const int> listed_partner;
+  Span<const Vec3> due_point;
+  Span<const int> due_partner;
   Span<const int> first;
   Span<int> node;
   Span<Vec3> point;
@@ -66,11 +89,11 @@ struct FillActive {
 
   SCREE_HD void operator()(int s) const {
     int out = first[s];
-    for (int i = listed_first[s]; i < listed_first[s + 1]; ++i) {
+    for (int i = due_first[s]; i < due_first[s + 1]; ++i) {
       if (!(phi[i] > 0)) continue;
-      node[out] = listed_node[i];
-      point[out] = listed_point[i];
-      partner[out] = listed_partner[i];
+      node[out] = listed_node[entry[i]];
+      point[out] = due_point[i];
+      partner[out] = due_partner[i];
       ++out;
     }
   }
@@ -100,7 +123,7 @@ void assign_sides(SceneView const& scene, int networks, Span<const Pair> pair, S
   NodeLists old = std::move(gather.lists);
   NodeLists& lists = gather.lists;
   lists = {};
-  lists.rebuilt = old.rebuilt, lists.block_queries = old.block_queries, lists.node_queries = old.node_queries;
+  lists.rebuilt = old.rebuilt, lists.block_queries = old.block_queries;
   for (int k = 0; k < pair.size(); ++k) {
     if (closed_form[k]) continue;
     Pair const p = pair[k];
@@ -115,7 +138,8 @@ void assign_sides(SceneView const& scene, int networks, Span<const Pair> pair, S
   for (Side const& s : lists.side) ++lists.group[network_of(scene, s, networks) + 1];
   std::partial_sum(lists.group.begin(), lists.group.end(), lists.group.begin());
   lists.side_of_pair.assign(2 * std::size_t(pair.size()), -1);
-  lists.built.resize(n);
+  lists.pose.resize(n);
+  lists.travelled.assign(n, 0);
   lists.margin.assign(n, -1);
   lists.first.assign(1, 0);
   old_side.assign(n, -1);
@@ -126,30 +150,41 @@ void assign_sides(SceneView const& scene, int networks, Span<const Pair> pair, S
     int const before = old_pair[side.pair] < 0 ? -1 : old.side_of_pair[2 * std::size_t(old_pair[side.pair]) + which];
     old_side[s] = before;
     if (before >= 0) {
-      lists.built[s] = old.built[before];
+      lists.pose[s] = old.pose[before];
+      lists.travelled[s] = old.travelled[before];
       lists.margin[s] = old.margin[before];
-      lists.node.insert(lists.node.end(), old.node.begin() + old.first[before],
-                        old.node.begin() + old.first[before + 1]);
+      int const begin = old.first[before], end = old.first[before + 1];
+      lists.node.insert(lists.node.end(), old.node.begin() + begin, old.node.begin() + end);
+      lists.due.insert(lists.due.end(), old.due.begin() + begin, old.due.begin() + end);
     }
     lists.first.push_back(static_cast<int>(lists.node.size()));
   }
 }
 
 void find_active_nodes(Queue const& queue, SceneView const& scene, StateView const& state, KinematicsView kinematics,
-                       NetworkSet const& networks, NodeLists const& lists, ActiveNodes& active) {
-  int const sides = static_cast<int>(lists.side.size()), listed = static_cast<int>(lists.node.size());
-  active.listed.resize(listed);
-  active.listed_side.resize(listed);
+                       NetworkSet const& networks, GatherOptions const& options, NodeLists& lists,
+                       ActiveNodes& active) {
+  int const sides = static_cast<int>(lists.side.size());
   active.count.resize(sides);
+  active.due_first.resize(sides + 1);
   active.first.resize(sides + 1);
-  groups_of_items(lists.group, lists.first, active.listed.group);
-  parallel_for(queue, "node_gather/listed", sides,
-               ListedPoint{scene, state, kinematics, lists.side, lists.first, lists.node, active.listed.point,
-                           active.listed.partner, active.listed_side},
-               64);
-  evaluate_phi(queue, scene, networks, active.listed);
-  active.queries += listed;
-  parallel_for(queue, "node_gather/count", sides, CountActive{lists.first, active.listed.phi, active.count}, 512);
+  DueNodes due{scene,       state,      kinematics, lists.side,   lists.travelled,
+               lists.first, lists.node, lists.due,  active.count, active.due_first,
+               {},          {},         {}};
+  parallel_for(queue, "node_gather/due", sides, due, 512);
+  exclusive_scan(queue, active.count, active.due_first);
+  int const n_due = active.due_first[sides];
+  active.due.resize(n_due);
+  active.due_entry.resize(n_due);
+  groups_of_items(lists.group, active.due_first, active.due.group);
+  due.entry = active.due_entry, due.point = active.due.point, due.partner = active.due.partner;
+  if (n_due > 0) parallel_for(queue, "node_gather/due", sides, due, 64);
+  evaluate_phi(queue, scene, networks, active.due);
+  active.queries += n_due;
+  parallel_for(queue, "node_gather/next_due", sides,
+               NextDue{scene, lists.side, lists.travelled, options.brute_force, active.due_first, active.due_entry,
+                       active.due.phi, lists.due, active.count},
+               512);
   exclusive_scan(queue, active.count, active.first);
   int const n = active.first[sides];
   active.node.resize(n);
@@ -157,8 +192,8 @@ void find_active_nodes(Queue const& queue, SceneView const& scene, StateView con
   active.sample.gradient.resize(n);
   groups_of_items(lists.group, active.first, active.sample.group);
   parallel_for(queue, "node_gather/compact", sides,
-               FillActive{lists.first, lists.node, active.listed.phi, active.listed.point, active.listed.partner,
-                          active.first, active.node, active.sample.point, active.sample.partner},
+               FillActive{active.due_first, active.due_entry, lists.node, active.due.phi, active.due.point,
+                          active.due.partner, active.first, active.node, active.sample.point, active.sample.partner},
                512);
   evaluate_phi_gradient(queue, scene, networks, active.sample);
 }

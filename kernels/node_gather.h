@@ -1,7 +1,5 @@
 // node_gather.h: which surface nodes of a pair may be inside the partner, kept between steps as node lists.
-// A list holds every node with phi > -(skin L) when it was built and stays valid while the pair moves less than the
-// skin; blocks of 32 nodes are rejected by one query each (design inference.md section 1). Conservative: the contact
-// set equals brute force, which the tests assert.
+// Conservative in every cull: the contact set equals brute force, which the tests assert.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -12,6 +10,11 @@
 #include "kernels/sdf_queries.h"
 
 namespace scree {
+
+// A side's list holds every node closer to the partner than a skin when the list was made (blocks of 32 nodes are
+// rejected by geometry or by one query each; design inference.md section 1) and stays valid while the side travels less
+// than its margin. A listed node that was phi < 0 outside cannot be inside before the side has travelled -phi / L: it
+// is not evaluated again before that is due.
 
 // Rotation matrices and spins of all bodies at the current poses, made once a step.
 struct Kinematics {
@@ -37,25 +40,42 @@ struct RelativePose {
 };
 
 struct NodeLists {
-  std::vector<Side> side;           // grouped by the partner's network, analytic partners last; by pair within
-  std::vector<int> group;           // first side of each network, of the analytic rest, end (networks + 2)
-  std::vector<int> side_of_pair;    // [2 pair + (0: nodes of a | 1: nodes of b)]; -1: that side carries no nodes
-  std::vector<RelativePose> built;  // pose at which the list was built (n_sides)
-  std::vector<double> margin;       // motion the list still covers [m]; negative: never built (n_sides)
-  std::vector<int> first;           // (n_sides + 1)
-  std::vector<int> node;            // relative to the shape's first node, ascending within a side
-  std::int64_t rebuilt = 0;         // sides rebuilt since the start
-  std::int64_t block_queries = 0, node_queries = 0;
+  std::vector<Side> side;          // grouped by the partner's network, analytic partners last; by pair within
+  std::vector<int> group;          // first side of each network, of the analytic rest, end (networks + 2)
+  std::vector<int> side_of_pair;   // [2 pair + (0: nodes of a | 1: nodes of b)]; -1: that side carries no nodes
+  std::vector<RelativePose> pose;  // at the last step (n_sides)
+  std::vector<double> travelled;   // bound on the way of the carrier's points past the partner since the list was made,
+                                   // summed over steps [m] (n_sides)
+  std::vector<double> margin;      // way the list covers [m]; negative: never built (n_sides)
+  std::vector<int> first;          // (n_sides + 1)
+  std::vector<int> node;           // relative to the shape's first node, ascending within a side
+  std::vector<double> due;         // a listed node is outside while travelled < due [m] (n_listed)
+  std::int64_t rebuilt = 0;        // sides rebuilt since the start
+  std::int64_t block_queries = 0;
 };
 
 struct NodeGather {
   NodeLists lists;
-  // Scratch of a rebuild.
-  std::vector<int> stale, count, block_first, block_item, item_side, node_first, node_item, node_side, keep, kept_first;
-  std::vector<double> skin;
+  // Scratch of a rebuild. *_gap: distance proven to lie between what was left out and the partner [m].
+  std::vector<int> stale, count, block_first, block_item, item_side, node_first, node_item;
+  std::vector<double> skin, side_gap, block_gap, node_way;
   std::vector<int> next_first, next_node;
+  std::vector<double> next_due;
   QueryBatch query;
 };
+
+// What phi of a side's partner is measured in [m].
+SCREE_HD inline double partner_unit(SceneView const& scene, Side const& side) {
+  return side.partner < 0 ? 1 : scene.diameter[side.partner];
+}
+
+// Way [m] a side may travel before a node with this phi < 0 can be inside; 0 or less: it may be inside now.
+SCREE_HD inline double way_to_contact(SceneView const& scene, Side const& side, double phi) {
+  if (side.partner < 0) return -phi;
+  ShapeRecord const& partner = scene.shape_record(side.partner);
+  double const float_error = partner.net < 0 ? 0 : 2e-5;  // of two network queries [d], see sdf_batch.h
+  return (-phi - float_error) * scene.diameter[side.partner] / partner.lipschitz;
+}
 
 // Sides for a new pair list. `old_pair[k]` is the index pair k had before, or -1; lists of surviving sides are kept.
 // Pairs listed in `closed_form` (one flag a pair) get no sides.
@@ -77,12 +97,13 @@ struct ActiveNodes {
   std::vector<int> node;     // relative to the shape's first node, ascending within a side
   QueryBatch sample;         // point, phi > 0 and gradient of each
   std::int64_t queries = 0;  // listed nodes evaluated since the start
-  // Scratch.
-  QueryBatch listed;
-  std::vector<int> listed_side, count;
+  // Scratch: the listed nodes that are due.
+  QueryBatch due;
+  std::vector<int> due_first, due_entry, count;
 };
+// Evaluates the listed nodes that are due and says when they are due next.
 void find_active_nodes(Queue const& queue, SceneView const& scene, StateView const& state, KinematicsView kinematics,
-                       NetworkSet const& networks, NodeLists const& lists, ActiveNodes& active);
+                       NetworkSet const& networks, GatherOptions const& options, NodeLists& lists, ActiveNodes& active);
 
 // Carrier's point p [carrier's d, body frame] in the partner's frame and unit (see QueryBatch::point).
 SCREE_HD inline Vec3 point_in_partner(SceneView const& scene, StateView const& state, KinematicsView const& kinematics,

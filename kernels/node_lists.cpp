@@ -9,9 +9,9 @@
 namespace scree {
 namespace {
 
-// A rebuild costs about 600 queries, each step between rebuilds the listed nodes: the sum is flat around this many
-// steps of motion a skin.
-double constexpr steps_a_skin = 12;
+// A longer skin makes rebuilds rarer and lists longer; listed nodes cost little before they are due. Measured (200
+// grains, 4,000 nodes, flowing): queries a step 18.8, 14.8, 13.7, 13.8 thousand at 12, 30, 60, 120.
+double constexpr steps_a_skin = 40;
 // Bounds of a skin in node spacings: below, the list would hold too little to survive round-off of the motion bound;
 // above, it holds most of a shape.
 double constexpr least_skin = 1.0 / 16, most_skin = 4;
@@ -47,46 +47,71 @@ SCREE_HD double motion_rate(StateView const& state, KinematicsView const& kinema
   return norm(v) + radius * norm(w);
 }
 
-SCREE_HD double partner_unit(SceneView const& scene, Side const& side) {
-  return side.partner < 0 ? 1 : scene.diameter[side.partner];
-}
-
 struct MarkStale {
   SceneView scene;
   StateView state;
   KinematicsView kinematics;
   GatherOptions options;
   Span<const Side> side;
-  Span<RelativePose> built;
-  Span<double> margin, skin;
+  Span<RelativePose> pose;
+  Span<const double> margin;
+  Span<double> travelled, skin;
   Span<int> stale;
 
   SCREE_HD void operator()(int s) const {
     ShapeRecord const& shape = scene.shape_record(side[s].carrier);
     double const d = scene.diameter[side[s].carrier], radius = shape.bounding_radius * d;
     RelativePose const now = relative_pose(scene, state, kinematics, side[s]);
-    stale[s] = options.brute_force || margin[s] < 0 || motion_bound(built[s], now, radius) > margin[s];
+    travelled[s] += motion_bound(pose[s], now, radius);
+    pose[s] = now;
+    stale[s] = options.brute_force || margin[s] < 0 || travelled[s] > margin[s];
     if (!stale[s]) return;
     double const wanted = steps_a_skin * options.time_step * motion_rate(state, kinematics, side[s], radius);
     double const least = least_skin * shape.node_spacing * d, most = most_skin * shape.node_spacing * d;
     skin[s] = wanted < least ? least : (wanted > most ? most : wanted);
-    built[s] = now;
-    margin[s] = skin[s];
+    travelled[s] = 0;
   }
 };
 
-// Could a ball of radius `reach` [partner's unit] around y touch the partner's zero set?
-SCREE_HD bool may_touch(ShapeRecord const& partner, Vec3 y, double reach) {
-  double const ball = partner.bounding_radius + reach;
-  if (norm2(y) > ball * ball) return false;
+// From the carrier's body frame [its d] to the partner's [its unit; planes: z = height]: one product a point. Only for
+// rejecting and listing; what is inside is decided at the bits of point_in_partner.
+struct ToPartner {
+  Mat3 linear;
+  Vec3 offset;
+
+  SCREE_HD ToPartner(SceneView const& scene, StateView const& state, KinematicsView const& kinematics,
+                     Side const& side) {
+    double const d = scene.diameter[side.carrier], unit = partner_unit(scene, side);
+    Mat3 const& carrier = kinematics.rotation[side.carrier];
+    offset = point_in_partner(scene, state, kinematics, side, {});
+    if (side.partner < 0)
+      linear = {{{}, {}, transposed_times(carrier, scene.plane[-1 - side.partner].normal)}};
+    else
+      linear = transpose(kinematics.rotation[side.partner]) * carrier;
+    for (Vec3& row : linear.row) row *= d / unit;
+  }
+  SCREE_HD Vec3 operator()(Vec3 p) const { return offset + linear * p; }
+};
+
+// Least distance from y [partner's unit] to the partner's zero set as its ball and its box know it; may be negative.
+SCREE_HD double outside_distance(SceneView const& scene, Side const& side, Vec3 y) {
+  if (side.partner < 0) return y.z;
+  ShapeRecord const& partner = scene.shape_record(side.partner);
   double out2 = 0;
   for (int k = 0; k < 3; ++k) {
     double const low = partner.box.min[k] - y[k], high = y[k] - partner.box.max[k];
     double const out = low > high ? low : high;
     if (out > 0) out2 += out * out;
   }
-  return out2 <= reach * reach;
+  double const ball = std::sqrt(norm2(y)) - partner.bounding_radius, box = std::sqrt(out2);
+  return ball > box ? ball : box;
 }
+
+SCREE_HD void lower(double& least, double value) {
+  if (value < least) least = value;
+}
+
+double constexpr nothing_left_out = 1e300;
 
 // Blocks of a stale side that survive the partner's ball and box: counts, or fills items when `item` is given.
 struct CandidateBlocks {
@@ -98,6 +123,7 @@ struct CandidateBlocks {
   Span<const double> skin;
   bool brute_force;
   Span<int> count;
+  Span<double> gap;
   Span<const int> first;
   Span<int> item, item_side;  // empty: count only
   Span<Vec3> point;
@@ -105,15 +131,19 @@ struct CandidateBlocks {
 
   SCREE_HD void operator()(int s) const {
     int n = 0;
-    if (stale[s]) {
+    double least_gap = nothing_left_out;
+    if (stale[s] && !(item.empty() ? whole_side_is_far(s, least_gap) : count[s] == 0)) {
       ShapeRecord const& shape = scene.shape_record(side[s].carrier);
       double const d = scene.diameter[side[s].carrier], unit = partner_unit(scene, side[s]);
+      ToPartner const to_partner(scene, state, kinematics, side[s]);
       for (int b = 0; b < shape.blocks; ++b) {
-        Vec3 const y =
-            point_in_partner(scene, state, kinematics, side[s], scene.nodes.block_centre[shape.first_block + b]);
-        double const reach = (scene.nodes.block_radius[shape.first_block + b] * d + skin[s]) / unit;
-        bool const near = side[s].partner < 0 ? y.z <= reach : may_touch(scene.shape_record(side[s].partner), y, reach);
-        if (!brute_force && !near) continue;
+        Vec3 const y = to_partner(scene.nodes.block_centre[shape.first_block + b]);
+        double const apart =
+            outside_distance(scene, side[s], y) * unit - scene.nodes.block_radius[shape.first_block + b] * d;
+        if (!brute_force && apart > skin[s]) {
+          lower(least_gap, apart);
+          continue;
+        }
         if (!item.empty()) {
           int const at = first[s] + n;
           item[at] = b, item_side[at] = s, point[at] = y, partner[at] = side[s].partner;
@@ -121,11 +151,32 @@ struct CandidateBlocks {
         ++n;
       }
     }
-    if (item.empty()) count[s] = n;
+    if (item.empty()) count[s] = n, gap[s] = least_gap;
+  }
+
+  // The carrier's ball against the partner's ball and box, and the other way round.
+  SCREE_HD bool whole_side_is_far(int s, double& apart) const {
+    if (brute_force) return false;
+    Side const& of = side[s];
+    double const d = scene.diameter[of.carrier];
+    Vec3 const centre = point_in_partner(scene, state, kinematics, of, {});
+    double far = outside_distance(scene, of, centre) * partner_unit(scene, of) -
+                 scene.shape_record(of.carrier).bounding_radius * d;
+    if (of.partner >= 0) {
+      Side const reverse{of.pair, of.partner, of.carrier};
+      Vec3 const back = point_in_partner(scene, state, kinematics, reverse, {});
+      double const other = outside_distance(scene, reverse, back) * d -
+                           scene.shape_record(of.partner).bounding_radius * scene.diameter[of.partner];
+      if (other > far) far = other;
+    }
+    if (!(far > skin[s])) return false;
+    apart = far;
+    return true;
   }
 };
 
-// Nodes of the blocks that one query each did not reject: counts an item's nodes, or fills them.
+// Nodes of the blocks that one query each did not reject: counts an item's nodes, or lists them with the way the side
+// has to travel before each needs a query of its own.
 struct CandidateNodes {
   SceneView scene;
   StateView state;
@@ -133,84 +184,87 @@ struct CandidateNodes {
   Span<const Side> side;
   Span<const double> skin;
   Span<const int> block_item, block_side;
+  Span<const Vec3> block_point;
   Span<const double> block_phi;
   bool brute_force;
   Span<int> count;
+  Span<double> gap;
   Span<const int> first;
-  Span<int> item, item_side;  // empty: count only
-  Span<Vec3> point;
-  Span<int> partner;
+  Span<int> item;  // empty: count only
+  Span<double> way;
 
   SCREE_HD void operator()(int i) const {
     int const s = block_side[i], b = block_item[i];
     int const carrier = side[s].carrier, shape_index = scene.shape_of[carrier];
     ShapeRecord const& shape = scene.shape[shape_index];
-    double const d = scene.diameter[carrier], unit = partner_unit(scene, side[s]);
-    double const lipschitz = side[s].partner < 0 ? 1 : scene.shape_record(side[s].partner).lipschitz;
-    double const radius = scene.nodes.block_radius[shape.first_block + b] * d;
+    double const unit = partner_unit(scene, side[s]);
+    double const radius = scene.nodes.block_radius[shape.first_block + b] * scene.diameter[carrier];
+    // No point is nearer to the partner than this less its distance from the block's centre.
+    double const from_centre = way_to_contact(scene, side[s], block_phi[i]);
+    double least_gap = nothing_left_out;
     int n = 0;
-    if (brute_force || block_phi[i] >= -(radius + skin[s]) / unit * lipschitz) {
+    if (!brute_force && from_centre - radius > skin[s]) {
+      least_gap = from_centre - radius;
+    } else if (item.empty() || count[i] > 0) {
+      ToPartner const to_partner(scene, state, kinematics, side[s]);
       Span<const int> const bounds = scene.nodes.block_first;
       int const entry = shape.first_block + shape_index + b;
       for (int k = bounds[entry]; k < bounds[entry + 1]; ++k) {
-        Vec3 const y = point_in_partner(scene, state, kinematics, side[s], scene.nodes.position[shape.first_node + k]);
-        double const reach = skin[s] / unit;
-        bool const near = side[s].partner < 0 ? y.z <= reach : may_touch(scene.shape_record(side[s].partner), y, reach);
-        if (!brute_force && !near) continue;
-        if (!item.empty()) {
-          int const at = first[i] + n;
-          item[at] = k, item_side[at] = s, point[at] = y, partner[at] = side[s].partner;
+        Vec3 const y = to_partner(scene.nodes.position[shape.first_node + k]);
+        double const by_phi = from_centre - norm(y - block_point[i]) * unit;
+        double const by_shape = outside_distance(scene, side[s], y) * unit;
+        double const apart = by_phi > by_shape ? by_phi : by_shape;
+        if (!brute_force && apart > skin[s]) {
+          lower(least_gap, apart);
+          continue;
         }
+        if (!item.empty()) item[first[i] + n] = k, way[first[i] + n] = brute_force || apart <= 0 ? 0 : apart;
         ++n;
       }
     }
-    if (item.empty()) count[i] = n;
+    if (item.empty()) count[i] = n, gap[i] = least_gap;
   }
 };
 
-struct KeepNode {
-  SceneView scene;
-  Span<const Side> side;
-  Span<const double> skin;
-  Span<const int> item_side;
-  Span<const double> phi;
-  bool brute_force;
-  Span<int> keep;
-
-  SCREE_HD void operator()(int i) const {
-    Side const& of = side[item_side[i]];
-    double const lipschitz = of.partner < 0 ? 1 : scene.shape_record(of.partner).lipschitz;
-    keep[i] = brute_force || phi[i] > -skin[item_side[i]] / partner_unit(scene, of) * lipschitz;
-  }
-};
-
-// Old list of a fresh side or new list of a stale one: its length, then its nodes.
+// Old list of a fresh side or new list of a stale one: its length, then its nodes and when they are due.
 struct NextList {
   Span<const int> stale, old_first, old_node;
+  Span<const double> old_due;
   Span<const int> block_first,
       node_first;  // nodes of side s: [node_first[block_first[s]], node_first[block_first[s+1]])
-  Span<const int> node_item, kept_before;
+  Span<const int> node_item;
+  Span<const double> way;
   Span<int> count;
   Span<const int> next_first;
   Span<int> next_node;  // empty: count only
+  Span<double> next_due;
 
   SCREE_HD void operator()(int s) const {
-    if (!stale[s]) {
-      int const n = old_first[s + 1] - old_first[s];
-      if (next_node.empty())
-        count[s] = n;
-      else
-        for (int i = 0; i < n; ++i) next_node[next_first[s] + i] = old_node[old_first[s] + i];
-      return;
-    }
-    int const begin = node_first[block_first[s]], end = node_first[block_first[s + 1]];
+    int const begin = stale[s] ? node_first[block_first[s]] : old_first[s];
+    int const end = stale[s] ? node_first[block_first[s + 1]] : old_first[s + 1];
     if (next_node.empty()) {
-      count[s] = kept_before[end] - kept_before[begin];
+      count[s] = end - begin;
       return;
     }
+    Span<const int> const from = stale[s] ? node_item : old_node;
+    Span<const double> const due = stale[s] ? way : old_due;
     int out = next_first[s];
-    for (int i = begin; i < end; ++i)
-      if (kept_before[i + 1] > kept_before[i]) next_node[out++] = node_item[i];
+    for (int i = begin; i < end; ++i, ++out) next_node[out] = from[i], next_due[out] = due[i];
+  }
+};
+
+// Way a new list covers: the least distance proven for anything left out, at least the skin.
+struct NextMargin {
+  Span<const int> stale;
+  Span<const double> side_gap, block_gap;
+  Span<const int> block_first;
+  Span<double> margin;
+
+  SCREE_HD void operator()(int s) const {
+    if (!stale[s]) return;
+    double least = side_gap[s];
+    for (int b = block_first[s]; b < block_first[s + 1]; ++b) lower(least, block_gap[b]);
+    margin[s] = least;
   }
 };
 
@@ -228,29 +282,20 @@ void update_node_lists(Queue const& queue, SceneView const& scene, StateView con
   if (sides == 0) return;
   for (auto* v : {&gather.stale, &gather.count}) v->resize(sides);
   gather.skin.resize(sides);
-  parallel_for(
-      queue, "node_gather/stale", sides,
-      MarkStale{scene, state, kinematics, options, lists.side, lists.built, lists.margin, gather.skin, gather.stale},
-      256);
+  parallel_for(queue, "node_gather/stale", sides,
+               MarkStale{scene, state, kinematics, options, lists.side, lists.pose, lists.margin, lists.travelled,
+                         gather.skin, gather.stale},
+               256);
   int const stale = static_cast<int>(std::count(gather.stale.begin(), gather.stale.end(), 1));
   if (stale == 0) return;
   lists.rebuilt += stale;
 
   // Blocks near the partner, and one query each.
   gather.block_first.resize(sides + 1);
-  CandidateBlocks blocks{scene,
-                         state,
-                         kinematics,
-                         lists.side,
-                         gather.stale,
-                         gather.skin,
-                         options.brute_force,
-                         gather.count,
-                         gather.block_first,
-                         {},
-                         {},
-                         {},
-                         {}};
+  gather.side_gap.resize(sides);
+  CandidateBlocks blocks{
+      scene,        state,           kinematics,         lists.side, gather.stale, gather.skin, options.brute_force,
+      gather.count, gather.side_gap, gather.block_first, {},         {},           {},          {}};
   parallel_for(queue, "node_gather/blocks", sides, blocks, 16);
   exclusive_scan(queue, gather.count, gather.block_first);
   int const block_items = gather.block_first[sides];
@@ -264,10 +309,12 @@ void update_node_lists(Queue const& queue, SceneView const& scene, StateView con
   evaluate_phi(queue, scene, networks, gather.query);
   lists.block_queries += block_items;
   std::vector<double> const block_phi = gather.query.phi;
+  std::vector<Vec3> const block_point = gather.query.point;
 
-  // Nodes of the surviving blocks, and one query each.
+  // Nodes of the surviving blocks. They get queries of their own only once they are due.
   gather.count.resize(block_items);
   gather.node_first.resize(block_items + 1);
+  gather.block_gap.resize(block_items);
   CandidateNodes nodes{scene,
                        state,
                        kinematics,
@@ -275,48 +322,48 @@ void update_node_lists(Queue const& queue, SceneView const& scene, StateView con
                        gather.skin,
                        gather.block_item,
                        gather.item_side,
-                       block_phi,
+                       gather.query.point,
+                       gather.query.phi,
                        options.brute_force,
                        gather.count,
+                       gather.block_gap,
                        gather.node_first,
-                       {},
-                       {},
                        {},
                        {}};
   parallel_for(queue, "node_gather/nodes", block_items, nodes, 32);
   exclusive_scan(queue, gather.count, gather.node_first);
   int const node_items = gather.node_first[block_items];
   gather.node_item.resize(node_items);
-  gather.node_side.resize(node_items);
-  gather.query.resize(node_items);
-  std::vector<int> group;
-  groups(lists.group, gather.block_first, group);
-  groups(group, gather.node_first, gather.query.group);
-  nodes.item = gather.node_item, nodes.item_side = gather.node_side;
-  nodes.point = gather.query.point, nodes.partner = gather.query.partner;
+  gather.node_way.resize(node_items);
+  nodes.item = gather.node_item, nodes.way = gather.node_way;
   if (node_items > 0) parallel_for(queue, "node_gather/nodes", block_items, nodes, 32);
-  evaluate_phi(queue, scene, networks, gather.query);
-  lists.node_queries += node_items;
 
   // The next lists: survivors of stale sides, the old list of the others.
-  gather.keep.resize(node_items);
-  gather.kept_first.resize(node_items + 1);
-  parallel_for(
-      queue, "node_gather/keep", node_items,
-      KeepNode{scene, lists.side, gather.skin, gather.node_side, gather.query.phi, options.brute_force, gather.keep},
-      1024);
-  exclusive_scan(queue, gather.keep, gather.kept_first);
   gather.count.resize(sides);
   gather.next_first.resize(sides + 1);
-  NextList next{gather.stale,     lists.first,       lists.node,   gather.block_first, gather.node_first,
-                gather.node_item, gather.kept_first, gather.count, gather.next_first,  {}};
+  NextList next{gather.stale,
+                lists.first,
+                lists.node,
+                lists.due,
+                gather.block_first,
+                gather.node_first,
+                gather.node_item,
+                gather.node_way,
+                gather.count,
+                gather.next_first,
+                {},
+                {}};
   parallel_for(queue, "node_gather/lists", sides, next, 256);
   exclusive_scan(queue, gather.count, gather.next_first);
   gather.next_node.resize(gather.next_first[sides]);
-  next.next_node = gather.next_node;
+  gather.next_due.resize(gather.next_first[sides]);
+  next.next_node = gather.next_node, next.next_due = gather.next_due;
   if (!gather.next_node.empty()) parallel_for(queue, "node_gather/lists", sides, next, 256);
+  parallel_for(queue, "node_gather/margins", sides,
+               NextMargin{gather.stale, gather.side_gap, gather.block_gap, gather.block_first, lists.margin}, 256);
   std::swap(lists.first, gather.next_first);
   std::swap(lists.node, gather.next_node);
+  std::swap(lists.due, gather.next_due);
 }
 
 }  // namespace scree

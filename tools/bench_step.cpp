@@ -35,6 +35,7 @@ struct Options {
   double fall = 1.2;  // of the heap's own simulation [s] at most
   double speed = 0.5;
   int steps = 200, warm_up = 50, rounds = 5;
+  std::vector<int> threads{1, 2};
   std::string output;
 };
 
@@ -113,10 +114,10 @@ std::unique_ptr<Simulation> simulation_of(Options const& o) {
 
 // What the steps of one round did.
 struct Counts {
-  std::int64_t rebuilt = 0, block = 0, node = 0, listed = 0, active = 0;
+  std::int64_t rebuilt = 0, block = 0, listed = 0, active = 0;
 
   Counts since(Counts const& b) const {
-    return {rebuilt - b.rebuilt, block - b.block, node - b.node, listed - b.listed, active - b.active};
+    return {rebuilt - b.rebuilt, block - b.block, listed - b.listed, active - b.active};
   }
 };
 
@@ -179,12 +180,12 @@ class Contest {
   }
   static Counts counts_of(Simulation::Impl const& impl) {
     NodeLists const& lists = impl.work.gather.lists;
-    return {lists.rebuilt, lists.block_queries, lists.node_queries, impl.work.active.queries, 0};
+    return {lists.rebuilt, lists.block_queries, impl.work.active.queries, 0};
   }
   void warm_up(std::string const& name, State const& state, Workspace const& work) {
     Simulation::Impl& impl = restore({name, 1, state, work, {}, {}, {}, {}});
     for (int k = 0; k < options_.warm_up; ++k) simulation_->step();
-    for (int threads : {1, 2}) subjects_.push_back({name, threads, impl.state, impl.work, {}, {}, {}, {}});
+    for (int threads : options_.threads) subjects_.push_back({name, threads, impl.state, impl.work, {}, {}, {}, {}});
   }
 
   Options options_;
@@ -195,18 +196,17 @@ class Contest {
 // The figures of one subject, by name.
 std::vector<std::pair<std::string, double>> figures(Contest& c, Subject const& s, Options const& o) {
   double const wall = median(s.wall) / o.steps, steps = o.steps;
-  double const queries =
-      static_cast<double>(s.counts.block + s.counts.node + s.counts.listed + s.counts.active) / steps;
+  double const queries = static_cast<double>(s.counts.block + s.counts.listed + s.counts.active) / steps;
   return {{"particle_steps_per_second", c.simulation().bodies() / wall},
           {"us_per_step", 1e6 * wall},
           {"cpu_us_per_step", 1e6 * median(s.cpu) / o.steps},
           {"queries_per_second", queries / wall},
           {"queries_per_step", queries},
           {"block_queries_per_step", static_cast<double>(s.counts.block) / steps},
-          {"node_queries_per_step", static_cast<double>(s.counts.node) / steps},
           {"listed_queries_per_step", static_cast<double>(s.counts.listed) / steps},
           {"gradient_queries_per_step", static_cast<double>(s.counts.active) / steps},
           {"rebuilt_sides_per_step", static_cast<double>(s.counts.rebuilt) / steps},
+          {"listed_nodes", static_cast<double>(s.work.gather.lists.node.size())},
           {"sides", static_cast<double>(s.work.gather.lists.side.size())}};
 }
 
@@ -270,6 +270,7 @@ int run(int argc, char** argv) {
   app.add_option("--steps", o.steps, "steps a round")->check(CLI::Range(1, 1'000'000));
   app.add_option("--warm-up", o.warm_up, "steps before the first round")->check(CLI::Range(1, 1'000'000));
   app.add_option("--rounds", o.rounds, "rounds of each subject")->check(CLI::Range(1, 1000));
+  app.add_option("--threads", o.threads, "thread counts to measure")->delimiter(',')->check(CLI::Range(1, 4096));
   app.add_option("--output", o.output, "write the figures as JSON");
   app.set_version_flag("--version", fmt::format("{} ({})", build_info().version, build_info().commit));
   app.allow_extras();
