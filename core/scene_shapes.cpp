@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/scene_shapes.h"
 
+#include <fmt/format.h>
 #include <fnmatch.h>
 
 #include <algorithm>
@@ -14,7 +15,26 @@
 
 namespace scree {
 
-ShapeCatalogue::ShapeCatalogue(Case const& c, std::vector<std::string>& found) : names_(c.library) {
+namespace {
+
+// The gate: a network whose gradient strays has the wrong contact stiffness.
+void check_gradient(Shape const& shape, LimitsCase const& limits, std::vector<std::string>& found) {
+  if (!shape.is_net) return;
+  double const low = shape.certificate.gradient_p1, high = shape.certificate.gradient_p99;
+  if (low < 0 || high < 0)
+    found.push_back("shape '" + shape.name +
+                    "' has no certificate: its gradient was never measured. Train it again with "
+                    "scree-train, which measures it");
+  else if (low < limits.gradient_low || high > limits.gradient_high)
+    found.push_back(
+        fmt::format("shape '{}': |grad phi| of its certificate runs from {:.3g} to {:.3g} (1st and 99th "
+                    "percentile), limits.gradient allows [{:.3g}, {:.3g}]",
+                    shape.name, low, high, limits.gradient_low, limits.gradient_high));
+}
+
+}  // namespace
+
+ShapeCatalogue::ShapeCatalogue(Case const& c, std::vector<std::string>& found) : names_(c.library), limits_(c.limits) {
   for (LibraryCase const& entry : names_) {
     try {
       libraries_.push_back(read_model(entry.file));
@@ -65,8 +85,9 @@ std::vector<int> ShapeCatalogue::templates_for(GrainsCase const& grains, Scene& 
     std::vector<std::string> known;
     for (std::size_t s = 0; s < from.shape.size(); ++s) {
       known.push_back(from.shape[s].name);
-      if (fnmatch(pattern.c_str(), from.shape[s].name.c_str(), 0) == 0)
-        chosen.push_back(add({index, static_cast<int>(s), grains.nodes, ""}, from.shape[s], scene));
+      if (fnmatch(pattern.c_str(), from.shape[s].name.c_str(), 0) != 0) continue;
+      check_gradient(from.shape[s], limits_, found);
+      chosen.push_back(add({index, static_cast<int>(s), grains.nodes, ""}, from.shape[s], scene));
     }
     if (chosen.size() == before && !from.shape.empty())
       found.push_back("grains '" + grains.name + "': shape '" + word + "' matches nothing in " +

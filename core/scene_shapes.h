@@ -26,6 +26,7 @@ class ShapeCatalogue {
   int add(Key const& key, Shape const& shape, Scene& scene);
 
   std::vector<LibraryCase> names_;
+  LimitsCase limits_;
   std::vector<Library> libraries_;
   std::vector<Key> keys_;
 };

@@ -137,6 +137,11 @@ void summarise(RunLog& log, OutputFolder const& folder, Case const& c, Simulatio
                       grouped(s.steps()), recorder.frames(), duration(wall), particle_steps / std::max(wall, 1e-9)));
   log.say(stage_table(stages, wall));
   log.say(ledger_table(s.ledger()));
+  if (LedgerRow const row = s.ledger(); std::abs(row.residual) > c.limits.ledger * row.moved)
+    log.say(
+        fmt::format("warning: the ledger leaves {:.2g} of the energy moved unaccounted for, limits.ledger is {:.2g}; a "
+                    "smaller time.safety closes it",
+                    std::abs(row.residual) / row.moved, c.limits.ledger));
   log.say(fmt::format("largest overlap at the nodes {:.3f} % d, largest kinetic energy of a grain {:.2e} m g d",
                       100 * s.largest_overlap(), s.largest_kinetic_per_grain()));
   log.say(fmt::format("results   {}", folder.file("results.h5").string()));

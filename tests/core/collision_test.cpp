@@ -108,6 +108,20 @@ TEST(Collision, ShippedGrainsConserveMomentaAndEnergyInTwentyPoses) {
   EXPECT_GT(deepest, 0.02);
 }
 
+TEST(Collision, TheGateRefusesAGradientOutsideTheCasesLimits) {
+  Case c = collision_case(
+      {"grains:ballast/0", "grains:cobble/0", std::filesystem::path(SCREE_SOURCE_DIR) / "shapes/library/grains.h5"});
+  c.limits.gradient_low = 0.95;
+  try {
+    Simulation(c, {});
+    FAIL() << "ballast's |grad phi| of about 0.8 at its edges passed a limit of 0.95";
+  } catch (InputError const& e) {
+    ASSERT_EQ(e.problems.size(), 1u);
+    EXPECT_NE(e.problems[0].find("ballast/0"), std::string::npos) << e.problems[0];
+    EXPECT_NE(e.problems[0].find("limits.gradient"), std::string::npos) << e.problems[0];
+  }
+}
+
 // phi(x) = c - sum_i a_i softplus(n_i . x - h): convex and smooth, but |grad phi| runs from about 0.5 to 1.5.
 std::filesystem::path write_warped_model() {
   int const width = 24;
@@ -131,6 +145,8 @@ std::filesystem::path write_warped_model() {
   shape.net = 0;
   library.shape = {shape};
   normalise_net(library, 0, 2.0);
+  library.shape[0].certificate.gradient_p1 = 0.55;  // the gate wants it measured; the test below measures it
+  library.shape[0].certificate.gradient_p99 = 1.75;
   std::filesystem::path const file = std::filesystem::temp_directory_path() / "scree_warped_test.h5";
   write_model(file, library, true);
   return file;

@@ -8,3 +8,4 @@ configure_package_config_file(${CMAKE_SOURCE_DIR}/tools/cmake/scree-config.cmake
 write_basic_package_version_file(${CMAKE_BINARY_DIR}/scree-config-version.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_BINARY_DIR}/scree-config.cmake ${CMAKE_BINARY_DIR}/scree-config-version.cmake
         DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/scree)
+install(FILES ${CMAKE_SOURCE_DIR}/shapes/library/grains.h5 DESTINATION ${CMAKE_INSTALL_DATADIR}/scree)
