@@ -22,13 +22,12 @@
 #include "shapes/phi_batch.h"
 #include "shapes/surface_nodes.h"
 #include "shapes/zero_set.h"
+#include "tools/guarded.h"
 
 namespace {
 
 using namespace scree;
 namespace fs = std::filesystem;
-
-enum ExitCode : int { exit_ok = 0, exit_bad_input = 2, exit_file = 4 };
 
 struct ImportArguments {
   fs::path mesh, output;
@@ -185,24 +184,6 @@ int inspect(InspectArguments const& a) {
   return exit_ok;
 }
 
-int complain(ExitCode code, char const* what) {
-  std::fflush(stdout);
-  fmt::print(stderr, "scree-shape: error: {}\n", what);
-  return code;
-}
-
-int guarded(std::function<int()> const& work) {
-  try {
-    return work();
-  } catch (std::system_error const& error) {  // filesystem_error too
-    return complain(exit_file, error.what());
-  } catch (std::invalid_argument const& error) {
-    return complain(exit_bad_input, error.what());
-  } catch (std::exception const& error) {
-    return complain(exit_file, error.what());
-  }
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -239,5 +220,5 @@ int main(int argc, char** argv) {
   } catch (CLI::ParseError const& error) {
     return app.exit(error) == 0 ? exit_ok : exit_bad_input;
   }
-  return guarded(chosen);
+  return guarded("scree-shape", chosen);
 }

@@ -21,6 +21,7 @@
 #include "shapes/mesh/procedural_grains.h"
 #include "shapes/mesh_files.h"
 #include "shapes/model_file.h"
+#include "tools/guarded.h"
 #include "training/publish.h"
 #include "training/train.h"
 
@@ -28,8 +29,6 @@ namespace {
 
 using namespace scree;
 namespace fs = std::filesystem;
-
-enum ExitCode : int { exit_ok = 0, exit_bad_input = 2, exit_file = 4 };
 
 struct Arguments {
   fs::path mesh, output, log;  // log: a CSV line an epoch; empty: none
@@ -200,24 +199,6 @@ void add_training_options(CLI::App& c, Arguments& a) {
   c.add_flag("-q,--quiet", a.quiet, "Only the last line");
 }
 
-int complain(ExitCode code, char const* what) {
-  std::fflush(stdout);
-  fmt::print(stderr, "scree-train: error: {}\n", what);
-  return code;
-}
-
-int guarded(std::function<int()> const& work) {
-  try {
-    return work();
-  } catch (std::system_error const& error) {  // filesystem_error too
-    return complain(exit_file, error.what());
-  } catch (std::invalid_argument const& error) {
-    return complain(exit_bad_input, error.what());
-  } catch (std::exception const& error) {
-    return complain(exit_file, error.what());
-  }
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -259,5 +240,5 @@ int main(int argc, char** argv) {
   } catch (CLI::ParseError const& error) {
     return app.exit(error) == 0 ? exit_ok : exit_bad_input;
   }
-  return guarded(chosen);
+  return guarded("scree-train", chosen);
 }
