@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "shapes/mesh/random.h"
+#include "shapes/random.h"
 #include "shapes/zero_set.h"
 
 namespace scree {

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "shapes/mesh/random.h"
+#include "shapes/random.h"
 
 namespace scree {
 namespace {

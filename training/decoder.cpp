@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "shapes/mesh/random.h"
+#include "shapes/random.h"
 
 namespace scree {
 namespace {

@@ -13,7 +13,7 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "shapes/mesh/random.h"
+#include "shapes/random.h"
 #include "training/decoder.h"
 #include "training/pool.h"
 

@@ -12,7 +12,7 @@
 #include "shapes/mesh/mesh_check.h"
 #include "shapes/mesh/mesh_measures.h"
 #include "shapes/mesh/mesh_normalise.h"
-#include "shapes/mesh/random.h"
+#include "shapes/random.h"
 
 namespace scree {
 namespace {

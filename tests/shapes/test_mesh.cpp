@@ -13,7 +13,7 @@
 #include "shapes/mesh/mesh_measures.h"
 #include "shapes/mesh/mesh_normalise.h"
 #include "shapes/mesh/procedural_grains.h"
-#include "shapes/mesh/random.h"
+#include "shapes/random.h"
 
 namespace scree {
 namespace {
