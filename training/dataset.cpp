@@ -7,43 +7,15 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "shapes/random.h"
+#include "shapes/phi_batch.h"
+#include "shapes/zero_set.h"
+#include "training/surface_sampler.h"
 
 namespace scree {
 namespace {
 
 double constexpr outer = 1.1;  // of the bounding radius: the region a network is ever evaluated in
 double constexpr inner = 0.9;  // of the inscribed radius: where the paper's shell begins
-
-// Uniform points on a mesh: triangle by area, then barycentric.
-class SurfaceSampler {
- public:
-  explicit SurfaceSampler(TriangleMesh const& mesh) : mesh_(mesh) {
-    double sum = 0;
-    for (auto const& [a, b, c] : mesh.triangle) {
-      Vec3 const area = cross(mesh.vertex[b] - mesh.vertex[a], mesh.vertex[c] - mesh.vertex[a]);
-      outward_.push_back(area / std::max(norm(area), 1e-300));
-      cumulative_.push_back(sum += norm(area));
-    }
-  }
-  struct Point {
-    Vec3 position, outward;
-  };
-  Point draw(Random& random) const {
-    double const pick = random.uniform(0, cumulative_.back());
-    auto const last = static_cast<std::ptrdiff_t>(cumulative_.size()) - 1;
-    auto const t = std::min(std::upper_bound(cumulative_.begin(), cumulative_.end(), pick) - cumulative_.begin(), last);
-    auto const& [a, b, c] = mesh_.triangle[t];
-    double const root = std::sqrt(random.uniform()), v = random.uniform();
-    return {mesh_.vertex[a] * (1 - root) + mesh_.vertex[b] * (root * (1 - v)) + mesh_.vertex[c] * (root * v),
-            outward_[t]};
-  }
-
- private:
-  TriangleMesh const& mesh_;
-  std::vector<Vec3> outward_;
-  std::vector<double> cumulative_;
-};
 
 Vec3 in_shell(double low, double high, Random& random) {
   double const radius = std::cbrt(random.uniform(low * low * low, high * high * high));
@@ -56,15 +28,23 @@ void measure(Body const& body, Samples& samples, int threads) {
   body.distance->evaluate(samples.point, samples.phi, samples.gradient, threads);
 }
 
+double depth_of_centroid(Body const& body) {
+  Vec3 const centre;
+  double phi = 0;
+  body.distance->evaluate({&centre, 1}, {&phi, 1}, {});
+  return std::max(phi, 0.0);
+}
+
 }  // namespace
 
 Body make_body(std::string name, TriangleMesh mesh, std::string source, std::string source_hash) {
   Body body;
-  body.distance = std::make_shared<MeshDistance const>(mesh);
+  body.distance = mesh_truth(mesh);
   MeshMass const mass = mesh_mass(mesh);
   if (std::abs(mass.volume * 6 / std::numbers::pi - 1) > 1e-6 || norm(mass.centroid) > 1e-6)
     throw std::invalid_argument("make_body: the mesh of " + name + " is not normalised (volume pi/6, centroid at 0)");
-  body.inscribed_radius = std::max(body.distance->at({0, 0, 0}).phi, 0.0);
+  body.inertia = {mass.inertia.row[0].x, mass.inertia.row[1].y, mass.inertia.row[2].z};
+  body.inscribed_radius = depth_of_centroid(body);
   for (Vec3 const& v : mesh.vertex) body.bounding_radius = std::max(body.bounding_radius, norm(v));
   body.name = std::move(name);
   body.source = std::move(source);
@@ -73,10 +53,28 @@ Body make_body(std::string name, TriangleMesh mesh, std::string source, std::str
   return body;
 }
 
+Body make_body(std::string name, Shape const& analytic) {
+  if (analytic.is_net) throw std::invalid_argument("make_body: " + name + " is a network, no formula");
+  Body body;
+  body.name = std::move(name);
+  body.source = analytic.name;
+  body.distance = analytic_truth(analytic.analytic);
+  body.exact_mesh = false;
+  body.inertia = analytic.inertia;
+  body.bounding_radius = analytic.bounding_radius;
+  body.inscribed_radius = depth_of_centroid(body);
+  PhiBatch const phi = surface_phi({}, analytic);
+  int constexpr cells = 48;  // refined once: about 40,000 triangles, sharp edges recovered
+  body.mesh = refine(phi, find_zero_set(phi, {1.05 * analytic.bounding_radius, cells, 1.0})).mesh;
+  return body;
+}
+
 Samples training_samples(Body const& body, SamplingOptions const& options, std::uint64_t seed, int threads) {
   Random random(seed);
-  SurfaceSampler const surface(body.mesh);
-  double const limit = outer * body.bounding_radius;
+  SurfaceSampler const surface(body.mesh, options.share_curved > 0);
+  bool const shell = options.region == SampleRegion::paper_shell;
+  double const low = shell ? inner * body.inscribed_radius : 0, limit = outer * body.bounding_radius;
+  auto const band = [&] { return random.below(5) < 2 ? 4 * options.band : options.band; };
   Samples samples;
   samples.point.reserve(options.count);
   while (static_cast<int>(samples.point.size()) < options.count) {
@@ -84,13 +82,16 @@ Samples training_samples(Body const& body, SamplingOptions const& options, std::
     Vec3 point;
     if (kind < options.share_surface) {
       auto const [position, outward] = surface.draw(random);
-      double const band = random.below(5) < 2 ? 4 * options.band : options.band;
-      point = position + outward * (band * random.normal());
-    } else if (kind < options.share_surface + options.share_interior) {
+      double const width = band();
+      point = position + outward * (width * random.normal());
+    } else if (kind < options.share_surface + options.share_curved) {
+      double const width = band();
+      point = surface.draw_curved(random) + random.direction() * std::abs(width * random.normal());
+    } else if (kind < options.share_surface + options.share_curved + options.share_interior) {
       auto const [position, outward] = surface.draw(random);
       point = position - outward * random.uniform(0, std::max(body.inscribed_radius, 0.1));
     } else {
-      point = in_shell(0, limit, random);
+      point = in_shell(low, limit, random);
     }
     if (norm(point) <= limit) samples.point.push_back(point);
   }
@@ -114,9 +115,14 @@ Samples surface_samples(Body const& body, int count, std::uint64_t seed) {
   for (int i = 0; i < count; ++i) {
     auto const [position, outward] = surface.draw(random);
     samples.point.push_back(position);
-    samples.phi.push_back(0);
     samples.gradient.push_back(-outward);
   }
+  if (!body.exact_mesh) {  // from the chords onto the surface
+    std::vector<double> phi(samples.point.size());
+    body.distance->evaluate(samples.point, phi, samples.gradient);
+    for (std::size_t i = 0; i < phi.size(); ++i) samples.point[i] -= samples.gradient[i] * phi[i];
+  }
+  samples.phi.assign(samples.point.size(), 0);
   return samples;
 }
 

@@ -5,6 +5,7 @@
 #include <torch/csrc/autograd/custom_function.h>
 
 #include <cmath>
+#include <stdexcept>
 
 #include "shapes/random.h"
 
@@ -15,39 +16,56 @@ using torch::Tensor;
 using torch::autograd::AutogradContext;
 using torch::autograd::tensor_list;
 
+// act(z) with its first and, where asked for, second derivative. For sine z = omega (W h + b) and the derivatives are
+// by z: see Decoder.
+struct Activated {
+  Tensor value, first, second;
+};
+Activated activate(Tensor const& z, Activation activation, double parameter, bool with_second) {
+  switch (activation) {
+    case Activation::sine: {
+      Tensor const value = z.sin();
+      return {value, z.cos(), with_second ? value.neg() : Tensor()};
+    }
+    case Activation::softplus: {
+      Tensor const scaled = z * parameter, first = scaled.sigmoid();
+      // log(1 + exp t) = max(t, 0) + log1p(exp(-|t|))
+      Tensor const value = (scaled.abs().neg().exp().log1p() + scaled.clamp_min(0)).div_(parameter);
+      return {value, first, with_second ? (first * (1 - first)).mul_(parameter) : Tensor()};
+    }
+    case Activation::leaky_relu: {
+      Tensor const first = (z > 0).to(z.dtype()).mul_(1 - parameter).add_(parameter);
+      return {z * first, first, Tensor()};  // the second derivative is 0 wherever there is one
+    }
+  }
+  throw std::invalid_argument("Decoder: unknown activation");
+}
+
 // value = act(z) and slope = act'(z) u, the derivative carried along one direction, as one differentiable step:
 // autograd over the single operations would compute sine and cosine twice each.
 struct Activate : torch::autograd::Function<Activate> {
-  static tensor_list forward(AutogradContext* context, Tensor const& z, Tensor const& u, bool sine, double leak) {
-    Tensor value, first;
-    if (sine) {
-      value = z.sin();
-      first = z.cos();
-    } else {
-      first = (z > 0).to(z.dtype()).mul_(1 - leak).add_(leak);
-      value = z * first;
-    }
-    context->saved_data["sine"] = sine;
-    context->save_for_backward({value, first, u});
-    return {value, u * first};
+  static tensor_list forward(AutogradContext* context, Tensor const& z, Tensor const& u, std::int64_t activation,
+                             double parameter) {
+    Activated const a = activate(z, static_cast<Activation>(activation), parameter, true);
+    context->save_for_backward({a.first, a.second.defined() ? a.second * u : Tensor()});
+    return {a.value, u * a.first};
   }
 
   static tensor_list backward(AutogradContext* context, tensor_list gradient) {
     auto const saved = context->get_saved_variables();
-    Tensor const &value = saved[0], &first = saved[1], &u = saved[2];
+    Tensor const &first = saved[0], &second_u = saved[1];
     Tensor dz = gradient[0] * first;
-    // act'' is -sin for sine, and 0 for a leaky ReLU wherever it has one.
-    if (context->saved_data["sine"].toBool()) dz.sub_((gradient[1] * u).mul_(value));
+    if (second_u.defined()) dz.addcmul_(gradient[1], second_u);
     return {dz, gradient[1] * first, Tensor(), Tensor()};
   }
 };
 
 // The same without the slope.
 struct ActivateValue : torch::autograd::Function<ActivateValue> {
-  static Tensor forward(AutogradContext* context, Tensor const& z, bool sine, double leak) {
-    Tensor const first = sine ? z.cos() : (z > 0).to(z.dtype()).mul_(1 - leak).add_(leak);
-    context->save_for_backward({first});
-    return sine ? z.sin() : z * first;
+  static Tensor forward(AutogradContext* context, Tensor const& z, std::int64_t activation, double parameter) {
+    Activated const a = activate(z, static_cast<Activation>(activation), parameter, false);
+    context->save_for_backward({a.first});
+    return a.value;
   }
   static tensor_list backward(AutogradContext* context, tensor_list gradient) {
     return {gradient[0] * context->get_saved_variables()[0], Tensor(), Tensor()};
@@ -62,13 +80,13 @@ Tensor uniform_tensor(std::int64_t count, double bound, Random& random) {
 }
 
 std::vector<float> to_vector(Tensor const& tensor) {
-  Tensor const flat = tensor.detach().contiguous();
+  Tensor const flat = tensor.detach().to(torch::kCPU).contiguous();
   return {flat.data_ptr<float>(), flat.data_ptr<float>() + flat.numel()};
 }
 
 }  // namespace
 
-Decoder::Decoder(TrainOptions const& options, int shapes)
+Decoder::Decoder(TrainOptions const& options, int shapes, torch::Device const& device)
     : activation_(options.activation), parameter_(options.parameter), shapes_(shapes), code_size_(options.code_size) {
   width_.push_back(3 + code_size_);
   width_.insert(width_.end(), options.layers, options.width);
@@ -79,15 +97,16 @@ Decoder::Decoder(TrainOptions const& options, int shapes)
   for (std::size_t l = 0; l + 1 < width_.size(); ++l) {
     int const in = width_[l], out = width_[l + 1];
     bool const last = l + 2 == width_.size();
-    // He et al. (2015) for the leaky ReLU; for sine the bound of Sitzmann et al. (2020), which in weights times omega
-    // is sqrt(6 / in) whatever omega. The first layer sees coordinates below 1, not unit variance: omega / 2.
+    // He et al. (2015) for leaky ReLU and softplus; for sine the bound of Sitzmann et al. (2020), which in weights
+    // times omega is sqrt(6 / in) whatever omega. The first layer sees coordinates below 1, not unit variance: omega
+    // / 2.
     double bound = std::sqrt(6.0 / in);
     if (sine && l == 0) bound = parameter_ / 2;
     if (last) bound = std::sqrt(1.0 / in);
     parts.push_back(uniform_tensor(static_cast<std::int64_t>(in) * out, bound, random));
     parts.push_back(uniform_tensor(out, last ? 0 : 1 / std::sqrt(in), random));
   }
-  weights_ = torch::cat(parts);
+  weights_ = torch::cat(parts).to(device);
   std::int64_t offset = 0;
   for (std::size_t l = 0; l + 1 < width_.size(); ++l) {
     std::int64_t const in = width_[l], out = width_[l + 1];
@@ -98,14 +117,17 @@ Decoder::Decoder(TrainOptions const& options, int shapes)
   if (code_size_ == 0) return;
   codes_ = torch::empty({shapes_ * code_size_}, torch::kFloat32);
   float* const code = codes_.data_ptr<float>();
-  for (std::int64_t i = 0; i < codes_.numel(); ++i) code[i] = static_cast<float>(options.code_spread * random.normal());
+  bool const normal = options.code_start == CodeStart::normal;
+  for (std::int64_t i = 0; i < codes_.numel(); ++i)
+    code[i] = static_cast<float>(options.code_spread * (normal ? random.normal() : random.uniform(-1, 1)));
+  codes_ = codes_.to(device);
   leaf_.push_back(codes_.view({shapes_, code_size_}).detach().requires_grad_());
 }
 
 Tensor Decoder::code_matrix() const { return code_size_ > 0 ? leaf_.back() : Tensor(); }
 
 Decoder::Output Decoder::forward(Tensor const& point, Tensor const& direction) const {
-  bool const sine = activation_ == Activation::sine;
+  std::int64_t const activation = static_cast<std::int64_t>(activation_);
   bool const with_slope = direction.defined();
   std::int64_t const shapes = point.size(0), rows = point.size(1);
   Tensor const w = leaf_[0].narrow(0, 0, 3);
@@ -118,11 +140,11 @@ Decoder::Output Decoder::forward(Tensor const& point, Tensor const& direction) c
   for (std::size_t l = 1; l < affine; ++l) {
     Tensor value;
     if (with_slope) {
-      tensor_list const both = Activate::apply(z, u, sine, parameter_);
+      tensor_list const both = Activate::apply(z, u, activation, parameter_);
       value = both[0];
       u = both[1].mm(leaf_[2 * l]);
     } else {
-      value = ActivateValue::apply(z, sine, parameter_);
+      value = ActivateValue::apply(z, activation, parameter_);
     }
     z = torch::addmm(leaf_[2 * l + 1], value, leaf_[2 * l]);
   }
@@ -130,6 +152,12 @@ Decoder::Output Decoder::forward(Tensor const& point, Tensor const& direction) c
 }
 
 std::vector<Tensor> Decoder::gradients(Tensor const& loss) const { return torch::autograd::grad({loss}, leaf_); }
+
+void Decoder::load(Tensor const& weights, Tensor const& codes) {
+  torch::NoGradGuard const no_gradient;
+  weights_.copy_(weights);
+  if (code_size_ > 0) codes_.copy_(codes);
+}
 
 Mlp Decoder::to_mlp() const {
   Mlp net;

@@ -18,7 +18,7 @@ namespace scree {
 // over the activations; export divides it out.
 class Decoder {
  public:
-  Decoder(TrainOptions const& options, int shapes);
+  Decoder(TrainOptions const& options, int shapes, torch::Device const& device = torch::kCPU);
 
   // phi (shapes, rows) and, unless `direction` is undefined, its derivative along `direction`.
   //   point, direction (shapes, rows, 3). Thread-safe as long as nobody writes the parameters.
@@ -36,6 +36,9 @@ class Decoder {
   torch::Tensor const& flat_weights() const { return weights_; }
   torch::Tensor const& flat_codes() const { return codes_; }  // (shapes * code_size); undefined without codes
   torch::Tensor code_matrix() const;                          // leaf (shapes, code_size); undefined without codes
+
+  // Copies into the parameters; codes are ignored where there are none.
+  void load(torch::Tensor const& weights, torch::Tensor const& codes);
 
   Mlp to_mlp() const;
   std::vector<std::vector<float>> codes() const;

@@ -7,7 +7,7 @@
 
 namespace scree {
 
-std::vector<SampleBlock> make_blocks(std::vector<Samples> const& by_body, int rows) {
+std::vector<SampleBlock> make_blocks(std::vector<Samples> const& by_body, int rows, torch::Device const& device) {
   if (by_body.empty()) throw std::invalid_argument("make_blocks: no bodies");
   std::size_t count = by_body.front().point.size();
   for (Samples const& samples : by_body) count = std::min(count, samples.point.size());
@@ -31,6 +31,7 @@ std::vector<SampleBlock> make_blocks(std::vector<Samples> const& by_body, int ro
           *gradient++ = static_cast<float>(samples.gradient[i][k]);
         }
       }
+    block = {block.point.to(device), block.phi.to(device), block.gradient.to(device)};
   }
   return blocks;
 }

@@ -18,6 +18,7 @@ struct SampleBlock {
 
 // `rows` samples of every body a block; a rest that fills no block is left out, but there is at least one block (with
 // fewer rows where the pool is that small).
-std::vector<SampleBlock> make_blocks(std::vector<Samples> const& by_body, int rows);
+std::vector<SampleBlock> make_blocks(std::vector<Samples> const& by_body, int rows,
+                                     torch::Device const& device = torch::kCPU);
 
 }  // namespace scree

@@ -12,12 +12,6 @@
 namespace scree {
 namespace {
 
-// Principal moments of the normalised mesh: its axes are x, y, z.
-Vec3 principal_inertia(TriangleMesh const& mesh) {
-  Mat3 const inertia = mesh_mass(mesh).inertia;
-  return {inertia.row[0].x, inertia.row[1].y, inertia.row[2].z};
-}
-
 double largest_relative_error(Vec3 value, Vec3 truth) {
   double error = 0;
   for (int k = 0; k < 3; ++k) error = std::max(error, std::abs(value[k] / truth[k] - 1));
@@ -32,7 +26,7 @@ PublishReport publish_shape(Library& library, int index, Body const& body, Publi
   Shape& shape = library.shape[index];
   Certificate& certificate = shape.certificate;
   certificate.volume_error = std::abs(raw.volume * 6 / std::numbers::pi - 1);
-  certificate.inertia_error = largest_relative_error(raw.inertia, principal_inertia(body.mesh));
+  certificate.inertia_error = largest_relative_error(raw.inertia, body.inertia);
   certificate.components = raw.components;
   PublishReport report;
   report.euler_characteristic = raw.euler_characteristic;
