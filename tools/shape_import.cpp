@@ -62,8 +62,8 @@ int import_mesh(ImportArguments const& a) {
 void add_import(CLI::App& app, std::function<int()>& chosen) {
   auto const a = std::make_shared<ImportArguments>();
   CLI::App* const c = app.add_subcommand("import", "Check a mesh, repair simple defects, report its form");
-  c->add_option("mesh", a->mesh, "Mesh (.stl, .obj), any unit")->required();
-  c->add_option("-o,--output", a->output, "Mesh to write (.stl, .obj)")->required();
+  c->add_option("mesh", a->mesh, "Mesh (.stl, .obj, .ply), any unit")->required();
+  c->add_option("-o,--output", a->output, "Mesh to write (.stl, .obj, .ply)")->required();
   c->add_option("--largest-hole", a->largest_hole, "Fill holes of at most this many edges")->capture_default_str();
   c->add_flag("--normalise", a->normalise, "Write it with volume pi/6, centroid at 0, principal axes along x, y, z");
   c->add_flag("--force", a->force, "Replace an existing output file");

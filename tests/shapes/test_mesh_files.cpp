@@ -1,4 +1,4 @@
-// test_mesh_files.cpp: STL and OBJ in and out, malformed files, and mass properties of polyhedra.
+// test_mesh_files.cpp: STL and OBJ in and out (PLY: test_ply.cpp), malformed files, and mass properties of polyhedra.
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -85,7 +85,7 @@ TEST_F(MeshFiles, StlAndObjRoundTrip) {
   TriangleMesh const exact = read_mesh(folder / "A.OBJ");
   for (int i = 0; i < 8; ++i) EXPECT_TRUE(exact.vertex[i] == box.vertex[i]);  // OBJ keeps every bit
   EXPECT_THROW(write_mesh(folder / "none" / "a.stl", box), std::runtime_error);
-  EXPECT_THROW(write_mesh(folder / "a.ply", box), std::runtime_error);
+  EXPECT_THROW(write_mesh(folder / "a.off", box), std::runtime_error);
 }
 
 TEST_F(MeshFiles, AsciiStlAndObjVariants) {
@@ -130,7 +130,7 @@ TEST_F(MeshFiles, MalformedFilesAreNamedWithTheirLine) {
       {put("letters.obj", "v 0 0 0\nf a b c\n"), ":2: not a vertex index: a"},
       {put("face.obj", "v 0 0 0\nf 1 1\n"), ":2: a face needs three corners"},
       {put("coordinate.obj", "v 0 0\n"), ":1: a vertex needs three coordinates"},
-      {put("mesh.ply", "ply\n"), "unknown mesh format"},
+      {put("mesh.off", "OFF\n"), "unknown mesh format"},
       {folder / "missing.obj", "no such file"},
   };
   for (Case const& c : cases) {
