@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <memory>
 
+#include "shapes/analytic_shapes.h"
 #include "shapes/mesh/procedural_grains.h"
 #include "tools/train_commands.h"
 
@@ -10,6 +11,10 @@ namespace {
 
 int fit(TrainArguments const& a) {
   check_output(a.output, a.force);
+  if (is_builtin_shape(a.mesh.string())) {
+    std::string const formula = a.mesh.string();
+    return train_and_write(a, {make_body(a.name.empty() ? formula : a.name, builtin_shape(formula))});
+  }
   std::string const name = a.name.empty() ? a.mesh.stem().string() : a.name;
   TriangleMesh mesh = read_closed_mesh(a.mesh);
   std::string const source = "mesh " + a.mesh.filename().string();
@@ -29,8 +34,11 @@ int coded(TrainArguments const& a) {
 void add_fit_command(CLI::App& app, std::function<int()>& chosen) {
   auto const a = std::make_shared<TrainArguments>();
   a->train = default_single_options();
-  CLI::App* const c = app.add_subcommand("fit", "One network for one closed mesh (SingleNetSDF)");
-  c->add_option("mesh", a->mesh, "Closed mesh (.stl, .obj), any unit; scree-shape import repairs simple defects")
+  CLI::App* const c = app.add_subcommand("fit", "One network for one closed mesh or formula (SingleNetSDF)");
+  c->add_option(
+       "mesh", a->mesh,
+       "Closed mesh (.stl, .obj), any unit (scree-shape import repairs simple defects), or a formula with exact "
+       "distances: ellipsoid:1:0.8:0.6, superellipsoid:1:0.8:0.6:0.5, box:1:1:2")
       ->required();
   c->add_option("--name", a->name, "Name of the shape (default: the file's)");
   add_training_options(*c, *a);

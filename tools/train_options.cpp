@@ -9,7 +9,7 @@ namespace {
 
 std::map<std::string, Activation> const activations = {
     {"sine", Activation::sine}, {"softplus", Activation::softplus}, {"leaky_relu", Activation::leaky_relu}};
-std::map<std::string, Loss> const losses = {{"l1", Loss::l1}, {"l2", Loss::l2}};
+std::map<std::string, Loss> const losses = {{"l1", Loss::l1}, {"l2", Loss::l2}, {"smooth_l1", Loss::smooth_l1}};
 std::map<std::string, Schedule> const schedules = {{"cosine", Schedule::cosine}, {"constant", Schedule::constant}};
 std::map<std::string, SampleRegion> const regions = {{"ball", SampleRegion::ball},
                                                      {"shell", SampleRegion::paper_shell}};
@@ -51,7 +51,7 @@ void add_network_options(CLI::App& c, TrainOptions& t) {
 }
 
 void add_loss_options(CLI::App& c, TrainOptions& t) {
-  add_choice(c, "--loss", t.loss, losses, "l1 (default) or l2");
+  add_choice(c, "--loss", t.loss, losses, "l1 (default), l2 or smooth_l1");
   c.add_option("--slope-weight", t.slope_weight, "Weight of the directional derivative in the loss")
       ->capture_default_str();
   c.add_option("--eikonal-weight", t.eikonal_weight, "Weight of | |grad phi| - 1 |; makes a step three times dearer")

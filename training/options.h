@@ -26,8 +26,9 @@ struct SamplingOptions {
 };
 
 enum class Loss {
-  l1,  // |phi - d|
-  l2,  // (phi - d)^2, and the slope's likewise
+  l1,         // |phi - d|
+  l2,         // (phi - d)^2, and the slope's likewise
+  smooth_l1,  // sqrt((phi - d)^2 + w^2) - w, w = 1e-3: l1 without its kink
 };
 
 enum class Schedule {

@@ -30,6 +30,19 @@ torch::Device device_of(std::string const& name) {
   return name == "cpu" || !there ? torch::kCPU : torch::kCUDA;
 }
 
+Tensor loss_of(Tensor const& error, Loss loss) {
+  double constexpr kink = 1e-3;
+  switch (loss) {
+    case Loss::l1:
+      return error.abs().mean();
+    case Loss::l2:
+      return error.square().mean();
+    case Loss::smooth_l1:
+      return (error.square() + kink * kink).sqrt().mean() - kink;
+  }
+  throw std::invalid_argument("Trainer: unknown loss");
+}
+
 }  // namespace
 
 Trainer::Trainer(std::vector<Body> const& bodies, TrainOptions const& options)
@@ -78,7 +91,7 @@ Trainer::StepLoss Trainer::step(int k, double rate_factor) {
     block[u] = &blocks_[order_[(static_cast<std::size_t>(k) * options_.units + u) % order_.size()]];
     if (options_.slope_weight > 0) direction[u] = random_directions(block[u]->point);
   }
-  UnitResult const mean = mean_of(block, direction);
+  UnitResult const mean = mean_of(block, direction, options_.loss);
   torch::NoGradGuard const no_gradient;
   std::int64_t const weights = decoder_.flat_weights().numel();
   weight_adam_.step(mean.gradient.narrow(0, 0, weights), options_.rate * rate_factor);
@@ -107,12 +120,8 @@ std::vector<double> Trainer::test() const {
   return {mean.data_ptr<double>(), mean.data_ptr<double>() + shapes_};
 }
 
-Tensor Trainer::loss_of(Tensor const& error) const {
-  return options_.loss == Loss::l1 ? error.abs().mean() : error.square().mean();
-}
-
 // | |grad phi| - 1 |, the gradient by three tangents.
-Tensor Trainer::eikonal_loss(SampleBlock const& block) const {
+Tensor Trainer::eikonal_loss(SampleBlock const& block, Loss loss) const {
   Tensor square;
   for (int axis = 0; axis < 3; ++axis) {
     Tensor direction = torch::zeros_like(block.point);
@@ -120,16 +129,16 @@ Tensor Trainer::eikonal_loss(SampleBlock const& block) const {
     Tensor const slope = decoder_.forward(block.point, direction).slope.square();
     square = square.defined() ? square + slope : slope;
   }
-  return loss_of((square + 1e-12).sqrt() - 1);
+  return loss_of((square + 1e-12).sqrt() - 1, loss);
 }
 
-Trainer::UnitResult Trainer::unit(SampleBlock const& block, Tensor const& direction) const {
+Trainer::UnitResult Trainer::unit(SampleBlock const& block, Tensor const& direction, Loss kind) const {
   Decoder::Output const out = decoder_.forward(block.point, direction);
   Tensor const error = out.phi - block.phi;
-  Tensor loss = loss_of(error);
+  Tensor loss = loss_of(error, kind);
   if (direction.defined())
-    loss = loss + options_.slope_weight * loss_of(out.slope - (block.gradient * direction).sum(2));
-  if (options_.eikonal_weight > 0) loss = loss + options_.eikonal_weight * eikonal_loss(block);
+    loss = loss + options_.slope_weight * loss_of(out.slope - (block.gradient * direction).sum(2), kind);
+  if (options_.eikonal_weight > 0) loss = loss + options_.eikonal_weight * eikonal_loss(block, kind);
   if (options_.code_size > 0 && options_.code_penalty > 0)
     loss = loss + options_.code_penalty * decoder_.code_matrix().square().mean();
   std::vector<Tensor> parts;
@@ -137,13 +146,13 @@ Trainer::UnitResult Trainer::unit(SampleBlock const& block, Tensor const& direct
   return {torch::cat(parts), {loss.item<double>(), error.detach().abs().mean().item<double>()}};
 }
 
-Trainer::UnitResult Trainer::mean_of(std::vector<SampleBlock const*> const& block,
-                                     std::vector<Tensor> const& direction) const {
+Trainer::UnitResult Trainer::mean_of(std::vector<SampleBlock const*> const& block, std::vector<Tensor> const& direction,
+                                     Loss loss) const {
   int const n = static_cast<int>(block.size());
   int const threads = device_.is_cpu() ? std::min(n, options_.threads) : 1;
   std::vector<UnitResult> result(n);
 #pragma omp parallel for schedule(static) num_threads(threads)
-  for (int k = 0; k < n; ++k) result[k] = unit(*block[k], direction[k]);
+  for (int k = 0; k < n; ++k) result[k] = unit(*block[k], direction[k], loss);
   torch::NoGradGuard const no_gradient;
   for (int k = 1; k < n; ++k) {
     result[0].gradient.add_(result[k].gradient);
@@ -178,7 +187,7 @@ Trainer::FinishLoss Trainer::finish() {
   FinishLoss loss;
   bool first = true;
   optimiser.step([&] {
-    UnitResult const mean = mean_of(block, direction);
+    UnitResult const mean = mean_of(block, direction, Loss::smooth_l1);
     std::int64_t const weights = parameter[0].numel();
     parameter[0].mutable_grad() = mean.gradient.narrow(0, 0, weights);
     if (parameter.size() > 1)
@@ -187,7 +196,7 @@ Trainer::FinishLoss Trainer::finish() {
     first = false;
     return torch::tensor(mean.loss.loss);
   });
-  loss.after = mean_of(block, direction).loss.loss;
+  loss.after = mean_of(block, direction, Loss::smooth_l1).loss.loss;
   return loss;
 }
 

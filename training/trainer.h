@@ -31,7 +31,8 @@ class Trainer {
   // Step `k` of this epoch, with all rates times `rate_factor`.
   StepLoss step(int k, double rate_factor);
 
-  // L-BFGS on the first samples of each body's pool; returns the loss before and after.
+  // L-BFGS on the first samples of each body's pool, with Loss::smooth_l1: the kink of the mean absolute error stops
+  // line searches. Returns that loss before and after.
   struct FinishLoss {
     double before = 0, after = 0;
   };
@@ -48,11 +49,11 @@ class Trainer {
     torch::Tensor gradient;  // flat, weights then codes
     StepLoss loss;
   };
-  UnitResult unit(SampleBlock const& block, torch::Tensor const& direction) const;
-  torch::Tensor loss_of(torch::Tensor const& error) const;
-  torch::Tensor eikonal_loss(SampleBlock const& block) const;
+  UnitResult unit(SampleBlock const& block, torch::Tensor const& direction, Loss loss) const;
+  torch::Tensor eikonal_loss(SampleBlock const& block, Loss loss) const;
   // Mean gradient and loss over blocks, by as many threads as there are, added in fixed order.
-  UnitResult mean_of(std::vector<SampleBlock const*> const& block, std::vector<torch::Tensor> const& direction) const;
+  UnitResult mean_of(std::vector<SampleBlock const*> const& block, std::vector<torch::Tensor> const& direction,
+                     Loss loss) const;
   torch::Tensor random_directions(torch::Tensor const& like);
 
   TrainOptions options_;

@@ -5,8 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "shapes/mesh/icosphere.h"
-#include "shapes/mesh/mesh_normalise.h"
+#include "tests/training/training_bodies.h"
 #include "training/decoder.h"
 #include "training/pool.h"
 #include "training/publish.h"
@@ -14,24 +13,6 @@
 
 namespace scree {
 namespace {
-
-// An ellipsoid with semi-axes `axes` before normalisation.
-Body ellipsoid_body(std::string const& name, Vec3 axes, int subdivisions = 3) {
-  TriangleMesh mesh = icosphere(subdivisions);
-  for (Vec3& v : mesh.vertex) v = multiply(v, axes);
-  return make_body(name, normalised(mesh), "ellipsoid");
-}
-
-TrainOptions tiny_options() {
-  TrainOptions options;
-  options.layers = 2;
-  options.width = 16;
-  options.steps = 200;
-  options.rows = 256;
-  options.test_count = 500;
-  options.samples.count = 4000;
-  return options;
-}
 
 TEST(TrainingSamples, LieWhereTheOptionsSay) {
   Body const body = ellipsoid_body("e", {1.4, 1.1, 1});
@@ -81,7 +62,7 @@ class Export : public testing::TestWithParam<Activation> {};
 TEST_P(Export, ReferenceEqualsTorch) {
   TrainOptions options = tiny_options();
   options.activation = GetParam();
-  options.parameter = GetParam() == Activation::sine ? 5 : 0.01;
+  options.parameter = GetParam() == Activation::leaky_relu ? 0.01 : 5;
   options.layers = 4;
   options.width = 24;
   options.code_size = 3;
@@ -111,13 +92,14 @@ TEST_P(Export, ReferenceEqualsTorch) {
   }
   EXPECT_EQ(decoder.forward(blocks[0].point, {}).phi.sub(out.phi).abs().max().item<double>(), 0);
 }
-INSTANTIATE_TEST_SUITE_P(Activations, Export, testing::Values(Activation::sine, Activation::leaky_relu));
+INSTANTIATE_TEST_SUITE_P(Activations, Export,
+                         testing::Values(Activation::sine, Activation::leaky_relu, Activation::softplus));
 
 // The hand-written backward pass of the activation against central differences of the loss.
 TEST_P(Export, GradientOfTheLossIsRight) {
   TrainOptions options = tiny_options();
   options.activation = GetParam();
-  options.parameter = GetParam() == Activation::sine ? 5 : 0.1;
+  options.parameter = GetParam() == Activation::leaky_relu ? 0.1 : 5;
   options.width = 8;
   options.code_size = 2;
   Decoder const decoder(options, 1);
