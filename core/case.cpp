@@ -112,8 +112,15 @@ void read_grains(CaseReader r, GrainsCase& out) {
   r.text("name", out.name, Need::required);
   r.text("material", out.material, Need::required);
   r.texts("shapes", out.shapes, Need::required);
-  r.choice<Evaluator>("evaluator", out.evaluator, {{"net", Evaluator::net}, {"analytic", Evaluator::analytic}},
-                      {"grid", "mesh"});
+  r.choice<Evaluator>("evaluator", out.evaluator,
+                      {{"net", Evaluator::net},
+                       {"grid", Evaluator::grid},
+                       {"mesh", Evaluator::mesh},
+                       {"analytic", Evaluator::analytic}});
+  if (r.integer("grid_cells", out.grid_cells) && out.evaluator != Evaluator::grid)
+    r.report("grid_cells", "has a meaning beside evaluator = \"grid\" only");
+  if (r.integer("mesh_cells", out.mesh_cells) && out.evaluator != Evaluator::mesh)
+    r.report("mesh_cells", "has a meaning beside evaluator = \"mesh\" only");
   if (CaseNode const* const nodes = r.present("nodes"); nodes && nodes->kind == CaseNode::Kind::string) {
     if (nodes->text == "fast")
       out.nodes = 1000;
@@ -214,6 +221,8 @@ void read_case(CaseReader root, Case& out) {
   root.finish();
 }
 
+std::string const mesh_word = "mesh:";
+
 // The first place where `file` exists: the case's folder, $SCREE_LIBRARY, `share`; in the latter two also by its
 // bare name, so that an installed library serves cases that name a path of the source tree. Empty: nowhere.
 std::filesystem::path find_file(std::filesystem::path const& file, std::filesystem::path const& folder,
@@ -233,16 +242,20 @@ std::filesystem::path find_file(std::filesystem::path const& file, std::filesyst
 }
 
 void resolve_files(Case& c, std::filesystem::path const& share, CaseProblems& problems) {
-  for (std::size_t i = 0; i < c.library.size(); ++i) {
-    if (c.library[i].file.empty()) continue;  // already reported
+  auto const resolved = [&](std::filesystem::path const& file, std::string const& key) {
     std::vector<std::string> tried;
-    std::filesystem::path const found = find_file(c.library[i].file, c.file.parent_path(), share, tried);
+    std::filesystem::path const found = find_file(file, c.file.parent_path(), share, tried);
     if (found.empty())
-      problems.add(fmt::format("library.{}.file", i),
-                   fmt::format("'{}' was not found; tried {}", c.library[i].file.string(), fmt::join(tried, ", ")));
-    else
-      c.library[i].file = found;
-  }
+      problems.add(key, fmt::format("'{}' was not found; tried {}", file.string(), fmt::join(tried, ", ")));
+    return found.empty() ? file : found;
+  };
+  for (std::size_t i = 0; i < c.library.size(); ++i)
+    if (!c.library[i].file.empty())  // else already reported
+      c.library[i].file = resolved(c.library[i].file, fmt::format("library.{}.file", i));
+  for (std::size_t i = 0; i < c.grains.size(); ++i)
+    for (std::string& word : c.grains[i].shapes)
+      if (std::filesystem::path const file = mesh_file_of(word); !file.empty())
+        word = mesh_word + resolved(file, fmt::format("grains.{}.shapes", i)).string();
 }
 
 // One key inside the other: a wrong table makes its keys wrong too.
@@ -265,6 +278,10 @@ std::vector<std::string> message_lines(Case const& c, CaseProblems const& proble
 }
 
 }  // namespace
+
+std::filesystem::path mesh_file_of(std::string const& shape_word) {
+  return shape_word.starts_with(mesh_word) ? shape_word.substr(mesh_word.size()) : "";
+}
 
 InputError::InputError(std::vector<std::string> found)
     : std::runtime_error(fmt::format("{}", fmt::join(found, "\n"))), problems(std::move(found)) {}

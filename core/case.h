@@ -12,8 +12,12 @@
 #include <vector>
 
 #include "kernels/base/vec.h"
+#include "shapes/bake.h"
 
 namespace scree {
+
+// "mesh:path" in `shapes`: the path; empty for every other word.
+std::filesystem::path mesh_file_of(std::string const& shape_word);
 
 // All problems of one input at once, a line each: "file:line: key: value ... allowed ... way out".
 class InputError : public std::runtime_error {
@@ -22,8 +26,8 @@ class InputError : public std::runtime_error {
   std::vector<std::string> problems;
 };
 
-enum class ContactLaw { winkler };  // linear and hertz: not in this version
-enum class Evaluator { net, analytic };
+enum class ContactLaw { winkler };                   // linear and hertz: not in this version
+enum class Evaluator { net, grid, mesh, analytic };  // net: as the shape is stored
 enum class WallKind { plane, box };
 enum class Orientation { random, aligned };
 
@@ -80,13 +84,15 @@ struct InsertCase {
 struct GrainsCase {
   std::string name, material;
   std::vector<std::string>
-      shapes;  // "library:pattern/*", or built-in "sphere", "ellipsoid:1:0.8:0.6",
+      shapes;  // "library:pattern/*", "mesh:file.stl" (file resolved), or built-in "sphere", "ellipsoid:1:0.8:0.6",
                // "superellipsoid:1:0.8:0.6:0.5" (semi-axis ratios, exponent), "box:1:1:1"; equal shares
   Evaluator evaluator = Evaluator::net;
   int nodes = 4000;  // surface nodes a grain; "fast" = 1000
   int count = 0;
   double diameter = 0.1;  // of the equal-volume sphere [m]
   InsertCase insert;
+  int grid_cells = default_grid_cells;  // evaluator grid: cells across the bounding diameter
+  int mesh_cells = default_mesh_cells;  // evaluator mesh, unless the shape is stored as one: the same
 };
 
 struct WallCase {

@@ -103,6 +103,9 @@ void Checker::time() {
 
 void Checker::materials() {
   library_ = names(c_.library, "library");
+  for (std::size_t i = 0; i < c_.library.size(); ++i)
+    if (c_.library[i].name == "mesh")
+      fail(fmt::format("library.{}.name", i), "'mesh' is the word for mesh files in shapes: choose another name");
   material_ = names(c_.material, "material");
   for (std::size_t i = 0; i < c_.material.size(); ++i)
     positive(fmt::format("material.{}.density", i), c_.material[i].density, "a mass density in kg/m3");
@@ -165,14 +168,16 @@ void Checker::shapes(std::string const& key, GrainsCase const& g) {
       } catch (std::invalid_argument const& error) {
         fail(key + ".shapes", error.what());
       }
+    } else if (!mesh_file_of(shape).empty()) {
+      // whether the file is a closed mesh is seen when it is read
     } else if (colon != std::string::npos && shape.find(':', colon + 1) == std::string::npos) {
       known(key + ".shapes", shape.substr(0, colon), library_, "library");
     } else {
       std::vector<std::string> const words{"sphere", "ellipsoid", "superellipsoid", "box"};
-      fail(key + ".shapes",
-           fmt::format("unknown shape '{}'{}; write \"library:pattern\" or a built-in: sphere, ellipsoid:a:b:c, "
-                       "superellipsoid:a:b:c:exponent, box:a:b:c",
-                       shape, did_you_mean(shape.substr(0, colon), words)));
+      fail(key + ".shapes", fmt::format("unknown shape '{}'{}; write \"library:pattern\", \"mesh:file.stl\" or a "
+                                        "built-in: sphere, ellipsoid:a:b:c, "
+                                        "superellipsoid:a:b:c:exponent, box:a:b:c",
+                                        shape, did_you_mean(shape.substr(0, colon), words)));
     }
   }
 }
@@ -220,6 +225,10 @@ void Checker::grains() {
     known(at + ".material", g.material, material_, "material");
     shapes(at, g);
     range(at + ".nodes", g.nodes, 32, true, 1e6, "surface nodes a grain; 4000 for angular grains, \"fast\" = 1000");
+    range(at + ".grid_cells", g.grid_cells, 8, true, 256,
+          "cells across the bounding diameter; memory grows as its cube");
+    range(at + ".mesh_cells", g.mesh_cells, 8, true, 128,
+          "cells across the bounding diameter; 16 give 30,000 triangles");
     range(at + ".count", g.count, 0, true, 1e8, "number of grains");
     positive(at + ".diameter", g.diameter, "diameter of the equal-volume sphere in m");
     insertion(at, g);

@@ -46,7 +46,19 @@ std::string quaternions(std::vector<Quat> const& qs) {
 }
 
 char const* to_string(Orientation o) { return o == Orientation::random ? "random" : "aligned"; }
-char const* to_string(Evaluator e) { return e == Evaluator::net ? "net" : "analytic"; }
+char const* to_string(Evaluator e) {
+  switch (e) {
+    case Evaluator::net:
+      return "net";
+    case Evaluator::grid:
+      return "grid";
+    case Evaluator::mesh:
+      return "mesh";
+    case Evaluator::analytic:
+      return "analytic";
+  }
+  throw std::invalid_argument("this Evaluator does not exist");
+}
 
 void write_time(std::string& out, TimeCase const& t) {
   out += fmt::format("\n[time]\nend = {}  # [s]\n", t.end);
@@ -73,6 +85,8 @@ void write_contact(std::string& out, ContactCase const& c) {
 void write_grains(std::string& out, GrainsCase const& g) {
   out += fmt::format("\n[[grains]]\nname = {}\nmaterial = {}\nshapes = {}\nevaluator = \"{}\"\n", quoted(g.name),
                      quoted(g.material), quoted_list(g.shapes), to_string(g.evaluator));
+  if (g.evaluator == Evaluator::grid) out += fmt::format("grid_cells = {}\n", g.grid_cells);
+  if (g.evaluator == Evaluator::mesh) out += fmt::format("mesh_cells = {}\n", g.mesh_cells);
   out += fmt::format("nodes = {}\ncount = {}\ndiameter = {}  # [m]\n", g.nodes, g.count, g.diameter);
   InsertCase const& i = g.insert;
   std::string const moving =

@@ -11,12 +11,15 @@ Effects effects_of(Case const& c, Scene const& scene) {
   auto const any_contact = [&](auto test) { return std::any_of(scene.contact.begin(), scene.contact.end(), test); };
   bool const spheres = any_shape([](ShapeRecord const& s) { return s.closed_form_sphere; });
   bool const others = any_shape([](ShapeRecord const& s) { return !s.closed_form_sphere; });
-  bool const analytic = any_shape([](ShapeRecord const& s) { return s.net < 0; });
+  auto const any_sdf = [&](SdfKind kind) { return any_shape([&](ShapeRecord const& s) { return s.sdf == kind; }); };
   Effects e;
   e.sphere_contacts = spheres;
   e.node_contacts = others;
-  e.networks = any_shape([](ShapeRecord const& s) { return s.net >= 0; });
-  e.analytic_nodes = others && (analytic || !scene.plane.empty());
+  e.networks = any_sdf(SdfKind::net);
+  e.harmonics = any_sdf(SdfKind::harmonics);
+  e.grids = any_sdf(SdfKind::grid);
+  e.meshes = any_sdf(SdfKind::mesh);
+  e.analytic_nodes = others && (any_sdf(SdfKind::analytic) || !scene.plane.empty());
   e.friction = any_contact([](ContactParameters const& p) { return p.friction > 0; });
   e.damping = any_contact([](ContactParameters const& p) { return p.damping_nodes > 0; });
   e.gravity = c.gravity.has_value();
@@ -31,6 +34,9 @@ std::vector<std::string> stages_of(Effects const& e) {
   };
   add(e.node_contacts, "node_gather");
   add(e.networks, "sdf_net");
+  add(e.harmonics, "sdf_harmonics");
+  add(e.grids, "sdf_grid");
+  add(e.meshes, "sdf_mesh");
   add(e.analytic_nodes, "sdf_analytic");
   add(e.sphere_contacts, "sphere_contacts");
   add(e.node_contacts, "contact_reduce");

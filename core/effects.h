@@ -14,7 +14,10 @@ namespace scree {
 struct Effects {
   bool sphere_contacts = false;  // closed-form spheres exist
   bool node_contacts = false;    // shapes with surface nodes exist
-  bool networks = false;         // ... some of them neural
+  bool networks = false;         // ... some of them neural,
+  bool harmonics = false;        // ... radii,
+  bool grids = false;            // ... grids,
+  bool meshes = false;           // ... meshes
   bool analytic_nodes = false;   // nodes meet planes or analytic shapes
   bool friction = false;
   bool damping = false;

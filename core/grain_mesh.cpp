@@ -95,7 +95,7 @@ TriangleMesh light_mesh(Library const& library, Shape const& shape, int triangle
   TriangleMesh mesh = geodesic_sphere(std::max(1, static_cast<int>(std::sqrt(triangles / 20.0))));
   std::vector<double> const distance = ray_distances(phi, mesh.vertex, reach);
   if (distance.empty())
-    return find_zero_set(phi, {.radius = reach, .cells = marched_cells, .lipschitz = shape.lipschitz}).mesh;
+    return find_zero_set(phi, {.radius = reach, .cells = marched_cells, .lipschitz = surface_lipschitz(shape)}).mesh;
   for (std::size_t i = 0; i < distance.size(); ++i) mesh.vertex[i] *= distance[i];
   return mesh;
 }

@@ -54,7 +54,7 @@ GrainRays::GrainRays(ResultsHeader const& header, Frame const& frame) : header_(
     throw std::invalid_argument("render: the frame's bodies do not match the header's");
   for (Shape const& s : header.library.shape) {
     phi_.push_back(surface_phi(header.library, s));
-    lipschitz_.push_back(s.is_net ? std::max(1.0, s.lipschitz) : 1.0);
+    lipschitz_.push_back(s.kind == ShapeKind::analytic ? 1.0 : std::max(1.0, s.lipschitz));
   }
   double sum = 0;
   for (std::size_t i = 0; i < n; ++i) {

@@ -15,6 +15,7 @@ SceneView Scene::view() const {
   SceneView v;
   v.shape = shape;
   v.nodes = {node_position, node_area, block_centre, block_radius, block_first};
+  v.sdf = {coefficient, grid_value, mesh_node, mesh_corner, mesh_normal};
   v.shape_of = shape_of;
   v.material_of = material_of;
   v.diameter = diameter;

@@ -20,6 +20,11 @@ struct Scene {
   std::vector<ShapeRecord> shape;  // (n_templates)
   std::vector<int> nodes_wanted;   // (n_templates)
   NetworkSet networks;
+  // Radii, grids and meshes of the templates, see SdfDataView.
+  std::vector<double> coefficient;
+  std::vector<float> grid_value;
+  std::vector<MeshNode> mesh_node;
+  std::vector<Vec3> mesh_corner, mesh_normal;
   std::vector<Vec3> node_position;  // [d]
   std::vector<double> node_area;    // [d^2]
   std::vector<Vec3> block_centre;
@@ -35,6 +40,8 @@ struct Scene {
   std::vector<PlaneRecord> plane;
   std::vector<ContactParameters> contact;  // [a * materials + b]
   bool friction = false;
+
+  std::vector<std::string> notes;  // what the user should know about the making of the scene
 
   SceneView view() const;
   int bodies() const { return static_cast<int>(shape_of.size()); }

@@ -10,7 +10,10 @@
 #include <utility>
 
 #include "core/nearest_name.h"
+#include "core/scene_evaluators.h"
 #include "shapes/analytic_shapes.h"
+#include "shapes/mesh_files.h"
+#include "shapes/mesh_shape.h"
 #include "shapes/model_file.h"
 
 namespace scree {
@@ -19,7 +22,7 @@ namespace {
 
 // The gate: a network whose gradient strays has the wrong contact stiffness.
 void check_gradient(Shape const& shape, LimitsCase const& limits, std::vector<std::string>& found) {
-  if (!shape.is_net) return;
+  if (!shape.is_net()) return;
   double const low = shape.certificate.gradient_p1, high = shape.certificate.gradient_p99;
   if (low < 0 || high < 0)
     found.push_back("shape '" + shape.name +
@@ -43,27 +46,76 @@ ShapeCatalogue::ShapeCatalogue(Case const& c, std::vector<std::string>& found) :
       libraries_.push_back({});
     }
   }
+  libraries_.push_back({});  // built-in shapes and mesh files
 }
 
-int ShapeCatalogue::add(Key const& key, Shape const& shape, Scene& scene) {
-  for (std::size_t i = 0; i < keys_.size(); ++i)
-    if (keys_[i].library == key.library && keys_[i].shape == key.shape && keys_[i].nodes == key.nodes &&
-        keys_[i].name == key.name)
-      return static_cast<int>(i);
+int ShapeCatalogue::add(Key const& key, Scene& scene) {
+  auto const at = std::find(keys_.begin(), keys_.end(), key);
+  if (at != keys_.end()) return static_cast<int>(at - keys_.begin());
   keys_.push_back(key);
+  Shape shape = libraries_[key.library].shape[key.shape];
+  // Names stay unique: a shape may come with two node counts or two evaluators.
+  auto const taken = [&](std::string const& name) {
+    return std::any_of(scene.library.shape.begin(), scene.library.shape.end(),
+                       [&](Shape const& s) { return s.name == name; });
+  };
+  std::string const name = shape.name;
+  for (int n = 2; taken(shape.name); ++n) shape.name = fmt::format("{} #{}", name, n);
   scene.library.shape.push_back(shape);
   scene.nodes_wanted.push_back(key.nodes);
   return static_cast<int>(keys_.size()) - 1;
 }
 
+// A built-in shape or a mesh file, made or read once.
+int ShapeCatalogue::loose_shape(std::string const& word) {
+  auto const [at, fresh] = loose_.try_emplace(word, 0);
+  if (!fresh) return at->second;
+  Library& own = libraries_.back();
+  try {
+    if (std::filesystem::path const file = mesh_file_of(word); !file.empty()) {
+      try {
+        at->second = add_mesh_shape(own, "mesh:" + file.filename().string(), read_mesh(file));
+      } catch (std::invalid_argument const& e) {
+        throw std::invalid_argument(file.string() + ": " + e.what());
+      }
+    } else {
+      own.shape.push_back(builtin_shape(word));
+      at->second = static_cast<int>(own.shape.size()) - 1;
+    }
+  } catch (...) {
+    loose_.erase(at);
+    throw;
+  }
+  return at->second;
+}
+
+// What a template is evaluated as, or a sentence in `found`.
+void ShapeCatalogue::choose_evaluator(GrainsCase const& grains, std::string const& word, Key& key,
+                                      std::vector<std::string>& found) const {
+  ShapeKind const stored = libraries_[key.library].shape[key.shape].kind;
+  bool const formula = stored == ShapeKind::analytic || stored == ShapeKind::harmonics;
+  if (grains.evaluator == Evaluator::analytic && !formula)
+    found.push_back(
+        fmt::format("grains '{}': evaluator = \"analytic\" needs formulas (built-in shapes, harmonics); '{}' is "
+                    "stored as a {}. Use evaluator = \"net\", \"grid\" or \"mesh\".",
+                    grains.name, word, to_string(stored)));
+  key.evaluated = stored;
+  if (grains.evaluator == Evaluator::grid) key.evaluated = ShapeKind::grid, key.cells = grains.grid_cells;
+  if (grains.evaluator == Evaluator::mesh) key.evaluated = ShapeKind::mesh, key.cells = grains.mesh_cells;
+  if (key.evaluated == stored) key.cells = 0;  // nothing to bake
+}
+
 std::vector<int> ShapeCatalogue::templates_for(GrainsCase const& grains, Scene& scene,
                                                std::vector<std::string>& found) {
   std::vector<int> chosen;
+  int const loose = static_cast<int>(libraries_.size()) - 1;
   for (std::string const& word : grains.shapes) {
-    if (is_builtin_shape(word)) {
+    if (is_builtin_shape(word) || !mesh_file_of(word).empty()) {
       try {
-        chosen.push_back(add({-1, 0, grains.nodes, word}, builtin_shape(word), scene));
-      } catch (std::invalid_argument const& e) {
+        Key key{loose, loose_shape(word), grains.nodes};
+        choose_evaluator(grains, word, key, found);
+        chosen.push_back(add(key, scene));
+      } catch (std::exception const& e) {
         found.push_back("grains '" + grains.name + "': " + e.what());
       }
       continue;
@@ -78,16 +130,15 @@ std::vector<int> ShapeCatalogue::templates_for(GrainsCase const& grains, Scene& 
     }
     int const index = static_cast<int>(entry - names_.begin());
     Library const& from = libraries_[index];
-    if (grains.evaluator == Evaluator::analytic)
-      found.push_back("grains '" + grains.name + "': evaluator = \"analytic\" needs built-in shapes; '" + word +
-                      "' is a network. Use evaluator = \"net\".");
     std::size_t const before = chosen.size();
     std::vector<std::string> known;
     for (std::size_t s = 0; s < from.shape.size(); ++s) {
       known.push_back(from.shape[s].name);
       if (fnmatch(pattern.c_str(), from.shape[s].name.c_str(), 0) != 0) continue;
       check_gradient(from.shape[s], limits_, found);
-      chosen.push_back(add({index, static_cast<int>(s), grains.nodes, ""}, from.shape[s], scene));
+      Key key{index, static_cast<int>(s), grains.nodes};
+      choose_evaluator(grains, from.shape[s].name, key, found);
+      chosen.push_back(add(key, scene));
     }
     if (chosen.size() == before && !from.shape.empty())
       found.push_back("grains '" + grains.name + "': shape '" + word + "' matches nothing in " +
@@ -97,25 +148,6 @@ std::vector<int> ShapeCatalogue::templates_for(GrainsCase const& grains, Scene& 
 }
 
 namespace {
-
-ShapeRecord record_of(Shape const& shape, int net, int bias_row) {
-  ShapeRecord r;
-  r.closed_form_sphere = !shape.is_net && shape.analytic.kind == AnalyticKind::sphere;
-  r.net = net;
-  r.bias_row = bias_row;
-  r.analytic = shape.analytic;
-  r.query_rotation = shape.query.rotation;
-  r.query_shift = shape.query.shift;
-  r.query_scale = shape.query.scale;
-  r.bounding_radius = shape.bounding_radius;
-  r.box = shape.box;
-  // The box is that of a triangulated zero set, whose vertices lie on it to 1e-6 d and whose chords lie inside.
-  double constexpr slack = 2e-3;
-  if (shape.is_net)
-    for (int k = 0; k < 3; ++k) r.box.min[k] -= slack, r.box.max[k] += slack;
-  r.lipschitz = std::max(1.0, shape.lipschitz);
-  return r;
-}
 
 void append_nodes(SurfaceNodes const& nodes, ShapeRecord& record, Scene& scene) {
   record.first_node = static_cast<int>(scene.node_position.size());
@@ -133,25 +165,16 @@ void append_nodes(SurfaceNodes const& nodes, ShapeRecord& record, Scene& scene) 
 }  // namespace
 
 void ShapeCatalogue::finish(Scene& scene, int threads, std::vector<std::string>& found) {
-  std::map<std::pair<int, int>, int> net_index;  // (library, net) -> scene network
+  SceneEvaluators evaluators(libraries_, scene, threads);
   for (std::size_t i = 0; i < keys_.size(); ++i) {
     Shape& shape = scene.library.shape[i];
-    if (!shape.is_net) {
-      scene.shape.push_back(record_of(shape, -1, 0));
-      continue;
+    try {
+      Key const& key = keys_[i];
+      scene.shape.push_back(evaluators.add(key.library, key.shape, key.evaluated, key.cells, shape));
+    } catch (std::exception const& e) {
+      found.push_back("shape '" + shape.name + "': as a " + to_string(keys_[i].evaluated) + ": " + e.what());
+      scene.shape.push_back({});
     }
-    auto const [at, fresh] =
-        net_index.emplace(std::pair{keys_[i].library, shape.net}, static_cast<int>(scene.networks.net.size()));
-    if (fresh) {
-      Mlp const& net = libraries_[keys_[i].library].net[shape.net];
-      scene.library.net.push_back(net);
-      scene.networks.net.emplace_back(net);
-      scene.networks.bias_rows.emplace_back();
-    }
-    shape.net = at->second;
-    PackedMlp const& packed = scene.networks.net[shape.net];
-    int const row = packed.append_bias(fold_code(packed.net(), shape.code), scene.networks.bias_rows[shape.net]);
-    scene.shape.push_back(record_of(shape, shape.net, row));
   }
   bool const only_spheres =
       std::all_of(scene.shape.begin(), scene.shape.end(), [](ShapeRecord const& r) { return r.closed_form_sphere; });

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -20,14 +21,21 @@ class ShapeCatalogue {
 
  private:
   struct Key {
-    int library, shape, nodes;  // library -1: built-in, then `name`
-    std::string name;
+    int library, shape;  // the last library holds built-in shapes and mesh files
+    int nodes;
+    ShapeKind evaluated = ShapeKind::analytic;
+    int cells = 0;  // of the grid or mesh to bake; 0: evaluated as it is stored
+    bool operator==(Key const&) const = default;
   };
-  int add(Key const& key, Shape const& shape, Scene& scene);
+  int add(Key const& key, Scene& scene);
+  int loose_shape(std::string const& word);
+  void choose_evaluator(GrainsCase const& grains, std::string const& word, Key& key,
+                        std::vector<std::string>& found) const;
 
   std::vector<LibraryCase> names_;
   LimitsCase limits_;
-  std::vector<Library> libraries_;
+  std::vector<Library> libraries_;    // of the case, then one of loose shapes
+  std::map<std::string, int> loose_;  // word -> shape of the last library
   std::vector<Key> keys_;
 };
 

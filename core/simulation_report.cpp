@@ -38,6 +38,9 @@ std::vector<Plan::Array> arrays_of(Simulation::Impl const& s) {
     for (auto const& w : net.net().weight) weights += bytes(w);
   for (auto const& rows : s.scene.networks.bias_rows) weights += bytes(rows);
   add(s.effects.networks, "networks", weights);
+  add(s.effects.harmonics, "radii", bytes(s.scene.coefficient));
+  add(s.effects.grids, "grids", bytes(s.scene.grid_value));
+  add(s.effects.meshes, "meshes", bytes(s.scene.mesh_node) + bytes(s.scene.mesh_corner) + bytes(s.scene.mesh_normal));
   add(s.effects.node_contacts, "node lists", bytes(s.work.gather.lists.node) + bytes(s.work.gather.lists.side));
   add(s.effects.friction, "contact history",
       bytes(s.state.node_history.xi) + bytes(s.state.node_history.node) + bytes(s.state.sphere_history.xi));

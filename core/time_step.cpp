@@ -38,9 +38,10 @@ double fall_height(Vec3 down, Scene const& scene, Placement const& placement) {
 // 1e-3 instead.
 double constexpr entry_error_conservative = 6e-5, entry_error_dissipative = 1e-3;
 
-// Largest flat face a shape can land on [d^2]: a box has one; of other bodies contact stays round or small.
+// Largest flat face a shape can land on [d^2]: a box has one; of other bodies contact stays round or small. A baked box
+// keeps its formula beside its grid or mesh.
 double flat_face(Shape const& shape) {
-  if (shape.is_net || shape.analytic.kind != AnalyticKind::box) return 0;
+  if (shape.analytic.kind != AnalyticKind::box) return 0;
   Vec3 const h = shape.analytic.half_size;
   return 4 * std::max({h.x * h.y, h.y * h.z, h.x * h.z});
 }

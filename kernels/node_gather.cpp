@@ -104,9 +104,10 @@ void groups_of_items(std::vector<int> const& side_group, std::vector<int> const&
   for (std::size_t g = 0; g < side_group.size(); ++g) group[g] = first[side_group[g]];
 }
 
-int network_of(SceneView const& scene, Side const& side, int networks) {
-  int const net = side.partner < 0 ? -1 : scene.shape_record(side.partner).net;
-  return net < 0 ? networks : net;
+int group_of(SceneView const& scene, Side const& side, int networks) {
+  if (side.partner < 0) return query_group(SdfKind::analytic, -1, networks);
+  ShapeRecord const& partner = scene.shape_record(side.partner);
+  return query_group(partner.sdf, partner.net, networks);
 }
 
 }  // namespace
@@ -131,11 +132,11 @@ void assign_sides(SceneView const& scene, int networks, Span<const Pair> pair, S
     if (!p.with_plane() && scene.shape_record(p.b).nodes > 0) lists.side.push_back({k, p.b, p.a});
   }
   std::stable_sort(lists.side.begin(), lists.side.end(), [&](Side const& x, Side const& y) {
-    return network_of(scene, x, networks) < network_of(scene, y, networks);
+    return group_of(scene, x, networks) < group_of(scene, y, networks);
   });
   int const n = static_cast<int>(lists.side.size());
-  lists.group.assign(networks + 2, 0);
-  for (Side const& s : lists.side) ++lists.group[network_of(scene, s, networks) + 1];
+  lists.group.assign(query_groups(networks) + 1, 0);
+  for (Side const& s : lists.side) ++lists.group[group_of(scene, s, networks) + 1];
   std::partial_sum(lists.group.begin(), lists.group.end(), lists.group.begin());
   lists.side_of_pair.assign(2 * std::size_t(pair.size()), -1);
   lists.pose.resize(n);

@@ -40,8 +40,8 @@ struct RelativePose {
 };
 
 struct NodeLists {
-  std::vector<Side> side;          // grouped by the partner's network, analytic partners last; by pair within
-  std::vector<int> group;          // first side of each network, of the analytic rest, end (networks + 2)
+  std::vector<Side> side;          // in the groups of QueryBatch by their partner; by pair within
+  std::vector<int> group;          // first side of each group, end (query_groups + 1)
   std::vector<int> side_of_pair;   // [2 pair + (0: nodes of a | 1: nodes of b)]; -1: that side carries no nodes
   std::vector<RelativePose> pose;  // at the last step (n_sides)
   std::vector<double> travelled;   // bound on the way of the carrier's points past the partner since the list was made,

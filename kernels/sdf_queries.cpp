@@ -3,6 +3,7 @@
 #include "kernels/sdf_queries.h"
 
 #include "kernels/base/parallel.h"
+#include "kernels/sdf/harmonics.h"
 
 namespace scree {
 namespace {
@@ -59,6 +60,54 @@ struct EvaluateAnalytic {
   }
 };
 
+struct HarmonicsOf {
+  SCREE_HD double operator()(SceneView const& scene, ShapeRecord const& shape, Vec3 x, Vec3* gradient) const {
+    Vec3 const own = shape.query_rotation * (x * shape.query_scale) + shape.query_shift;
+    Span<const double> const c = scene.sdf.coefficient.subspan(shape.first_coefficient, shape.coefficients);
+    double const phi = radial_distance(c, own, gradient);
+    if (gradient) *gradient = transposed_times(shape.query_rotation, *gradient);
+    return phi / shape.query_scale;
+  }
+};
+struct GridOf {
+  SCREE_HD double operator()(SceneView const& scene, ShapeRecord const& shape, Vec3 x, Vec3* gradient) const {
+    Span<const float> const value(scene.sdf.grid_value.data + shape.first_value, static_cast<int>(shape.grid.points()));
+    return grid_distance(shape.grid, value, x, gradient);
+  }
+};
+struct MeshOf {
+  SCREE_HD double operator()(SceneView const& scene, ShapeRecord const& shape, Vec3 x, Vec3* gradient) const {
+    SdfDataView const& all = scene.sdf;
+    std::size_t const triangle = shape.first_triangle;
+    MeshSdf const mesh{
+        all.mesh_node.subspan(shape.first_mesh_node, shape.mesh_nodes),
+        {all.mesh_corner.data + 3 * triangle, 3 * shape.triangles},
+        {all.mesh_normal.data + normals_per_triangle * triangle, normals_per_triangle * shape.triangles}};
+    return mesh_distance(mesh, x, gradient);
+  }
+};
+
+template <class PhiOf>
+struct EvaluateInBall {
+  SceneView scene;
+  Span<const Vec3> point;
+  Span<const int> partner;
+  Span<double> phi;
+  Span<Vec3> gradient;  // empty: phi only
+
+  SCREE_HD void operator()(int i) const {
+    ShapeRecord const& shape = scene.shape_record(partner[i]);
+    Vec3* const g = gradient.empty() ? nullptr : &gradient[i];
+    double const r2 = norm2(point[i]);
+    if (r2 > shape.bounding_radius * shape.bounding_radius) {
+      phi[i] = phi_outside_ball(std::sqrt(r2), shape.bounding_radius);
+      if (g) *g = point[i] * (-1 / std::sqrt(r2));
+    } else {
+      phi[i] = PhiOf()(scene, shape, point[i], g);
+    }
+  }
+};
+
 void evaluate(Queue const& queue, SceneView const& scene, NetworkSet const& networks, QueryBatch& batch,
               bool with_gradient) {
   int const n = static_cast<int>(batch.point.size());
@@ -91,12 +140,19 @@ void evaluate(Queue const& queue, SceneView const& scene, NetworkSet const& netw
                FromNetwork{scene, point, partner, batch.net_phi,
                            with_gradient ? Span<const Vec3f>(batch.net_gradient) : Span<const Vec3f>(), phi, gradient},
                512);
-  int const rest = n - net_items;
-  parallel_for(
-      queue, "sdf_analytic/evaluate", rest,
-      EvaluateAnalytic{scene, point.subspan(net_items, rest), partner.subspan(net_items, rest),
-                       phi.subspan(net_items, rest), with_gradient ? gradient.subspan(net_items, rest) : Span<Vec3>()},
-      128);
+  auto const run = [&]<class Functor>(SdfKind kind, char const* name, Functor functor, int grain) {
+    int const group = query_group(kind, -1, static_cast<int>(networks.net.size()));
+    int const first = batch.group[group], count = batch.group[group + 1] - first;
+    functor.scene = scene;
+    functor.point = point.subspan(first, count), functor.partner = partner.subspan(first, count);
+    functor.phi = phi.subspan(first, count);
+    if (with_gradient) functor.gradient = gradient.subspan(first, count);
+    parallel_for(queue, name, count, functor, grain);
+  };
+  run(SdfKind::harmonics, "sdf_harmonics/evaluate", EvaluateInBall<HarmonicsOf>{}, 128);
+  run(SdfKind::grid, "sdf_grid/evaluate", EvaluateInBall<GridOf>{}, 512);
+  run(SdfKind::mesh, "sdf_mesh/evaluate", EvaluateInBall<MeshOf>{}, 64);
+  run(SdfKind::analytic, "sdf_analytic/evaluate", EvaluateAnalytic{}, 128);
 }
 
 }  // namespace

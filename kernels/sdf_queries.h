@@ -1,4 +1,4 @@
-// sdf_queries.h: phi and its gradient for points grouped by network; planes and analytic shapes in double.
+// sdf_queries.h: phi and its gradient for points grouped by network; planes and all other shapes in double.
 // Every stage that asks "how deep is this point in that body" goes through here, so they all see the same bits.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -17,12 +17,18 @@ struct NetworkSet {
   std::vector<std::vector<float>> bias_rows;  // of network i, bias_stride() floats a row
 };
 
-// Points and the body (or -1 - plane) they are tested against; those of one network are contiguous, analytic
-// partners and planes come last.
+// Groups of queries: one a network, then one for each other kind in the order of SdfKind; planes and formulas come
+// last.
+SCREE_HD inline int query_groups(int networks) { return networks + 4; }
+SCREE_HD inline int query_group(SdfKind kind, int net, int networks) {
+  return kind == SdfKind::net ? net : networks + static_cast<int>(kind) - 1;
+}
+
+// Points and the body (or -1 - plane) they are tested against; those of one group are contiguous.
 struct QueryBatch {
   std::vector<Vec3> point;     // in the partner's body frame [partner's d]; planes: z = height above the plane [m]
   std::vector<int> partner;    // body, or -1 - plane
-  std::vector<int> group;      // first item of each network, then of the analytic rest, then the end (networks + 2)
+  std::vector<int> group;      // first item of each group, then the end (query_groups + 1)
   std::vector<double> phi;     // result [partner's d; m for planes]
   std::vector<Vec3> gradient;  // result, in the partner's body frame
 
@@ -39,7 +45,7 @@ struct QueryBatch {
 
 // Fill phi, or phi and gradient, of all points. A point outside its partner's bounding sphere is outside by
 // definition, phi = -(distance to that sphere): a network grows spurious solid beyond the ball it was trained in, and
-// is never evaluated there.
+// is never evaluated there; grids, meshes and radii follow the same rule, formulas do not need it.
 void evaluate_phi(Queue const& queue, SceneView const& scene, NetworkSet const& networks, QueryBatch& batch);
 void evaluate_phi_gradient(Queue const& queue, SceneView const& scene, NetworkSet const& networks, QueryBatch& batch);
 

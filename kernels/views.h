@@ -6,22 +6,33 @@
 #include "kernels/base/span.h"
 #include "kernels/base/vec.h"
 #include "kernels/sdf/analytic.h"
+#include "kernels/sdf/grid.h"
+#include "kernels/sdf/mesh.h"
 
 namespace scree {
+
+// What answers for phi of a shape. Planes count as analytic.
+enum class SdfKind { net, harmonics, grid, mesh, analytic };
 
 // A shape template, shared by every body that has this shape.
 struct ShapeRecord {
   bool closed_form_sphere = false;  // contacts with its like and with planes need no nodes
-  int net = -1;                     // -1: `analytic` defines phi
-  int bias_row = 0;                 // of its network's first-layer biases
-  AnalyticSdf analytic;             // units of d
-  Mat3 query_rotation;              // x_net = query_rotation * (x * query_scale) + query_shift
+  SdfKind sdf = SdfKind::analytic;
+  int net = -1;          // -1: no network defines phi
+  int bias_row = 0;      // of its network's first-layer biases
+  AnalyticSdf analytic;  // units of d
+  Mat3 query_rotation;   // net, harmonics: x_own = query_rotation * (x * query_scale) + query_shift
   Vec3 query_shift;
   double query_scale = 1;
-  double bounding_radius = 0.5;  // of the zero set about the centroid [d]
-  Box box;                       // of the zero set in the body frame [d]
-  double lipschitz = 1;          // upper bound of |grad phi|
-  double node_spacing = 0;       // typical [d]
+  int first_coefficient = 0, coefficients = 0;  // harmonics
+  GridFrame grid;                               // grid [d]
+  std::size_t first_value = 0;                  // ... its first value
+  int first_mesh_node = 0, mesh_nodes = 0;      // mesh [d]
+  int first_triangle = 0, triangles = 0;        // ... of its corners and normals
+  double bounding_radius = 0.5;                 // of the zero set about the centroid [d]
+  Box box;                                      // of the zero set in the body frame [d]
+  double lipschitz = 1;                         // upper bound of |grad phi| outside the solid
+  double node_spacing = 0;                      // typical [d]
   int first_node = 0, nodes = 0;
   int first_block = 0, blocks = 0;
 };
@@ -33,6 +44,15 @@ struct NodesView {
   Span<const double> block_radius;  // [d] (n_blocks)
   Span<const int> block_first;      // first node of a block, relative to the shape's first node (n_blocks + shapes):
                                     // block b of shape s at first_block[s] + s + b, with an end entry a shape
+};
+
+// What the shapes that are neither formula nor network consist of, all shapes one after the other.
+struct SdfDataView {
+  Span<const double> coefficient;  // of harmonics
+  Span<const float> grid_value;    // phi [d]
+  Span<const MeshNode> mesh_node;  // indices relative to the shape's first node and triangle
+  Span<const Vec3> mesh_corner;    // [d], 3 a triangle
+  Span<const Vec3> mesh_normal;    // normals_per_triangle each
 };
 
 // A half space: the solid lies behind the plane. A box container is one such record a face.
@@ -54,6 +74,7 @@ struct ContactParameters {
 struct SceneView {
   Span<const ShapeRecord> shape;
   NodesView nodes;
+  SdfDataView sdf;
   Span<const int> shape_of;               // (n_bodies)
   Span<const int> material_of;            // (n_bodies)
   Span<const double> diameter;            // of the equal-volume sphere [m] (n_bodies)

@@ -156,13 +156,43 @@ std::string read_string(hid_t at, char const* name) {
   return value.c_str();
 }
 
-void write_floats(hid_t at, char const* name, FloatArray const& array) {
+namespace {
+
+// In the file, in memory, and in words.
+template <class T>
+struct NumberType;
+template <>
+struct NumberType<float> {
+  static hid_t file() { return H5T_IEEE_F32LE; }
+  static hid_t memory() { return H5T_NATIVE_FLOAT; }
+  static H5T_class_t constexpr kind = H5T_FLOAT;
+  static char constexpr words[] = "floating-point numbers";
+};
+template <>
+struct NumberType<double> {
+  static hid_t file() { return H5T_IEEE_F64LE; }
+  static hid_t memory() { return H5T_NATIVE_DOUBLE; }
+  static H5T_class_t constexpr kind = H5T_FLOAT;
+  static char constexpr words[] = "floating-point numbers";
+};
+template <>
+struct NumberType<int> {
+  static hid_t file() { return H5T_STD_I32LE; }
+  static hid_t memory() { return H5T_NATIVE_INT; }
+  static H5T_class_t constexpr kind = H5T_INTEGER;
+  static char constexpr words[] = "whole numbers";
+};
+
+}  // namespace
+
+template <class T>
+void write_table(hid_t at, char const* name, Table<T> const& array) {
   hsize_t const dimension[2] = {static_cast<hsize_t>(array.rows), static_cast<hsize_t>(std::max(array.columns, 0))};
   Handle const space(H5Screate_simple(array.columns < 0 ? 1 : 2, dimension, nullptr), H5Sclose,
                      "cannot make a data space");
-  Handle const dataset(H5Dcreate2(at, name, H5T_IEEE_F32LE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose,
-                       "cannot create dataset " + quoted(name));
-  require(H5Dwrite(dataset, H5T_NATIVE_FLOAT, H5S_ALL, H5S_ALL, H5P_DEFAULT, array.value.data()) >= 0,
+  Handle const dataset(H5Dcreate2(at, name, NumberType<T>::file(), space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                       H5Dclose, "cannot create dataset " + quoted(name));
+  require(H5Dwrite(dataset, NumberType<T>::memory(), H5S_ALL, H5S_ALL, H5P_DEFAULT, array.value.data()) >= 0,
           "cannot write dataset " + quoted(name));
 }
 bool has_dataset(hid_t at, char const* name) {
@@ -170,26 +200,35 @@ bool has_dataset(hid_t at, char const* name) {
   H5O_info_t info;
   return H5Oget_info_by_name(at, name, &info, H5P_DEFAULT) >= 0 && info.type == H5O_TYPE_DATASET;
 }
-FloatArray read_floats(hid_t at, char const* name, int rank) {
+template <class T>
+Table<T> read_table(hid_t at, char const* name, int rank) {
   require(has_dataset(at, name), "dataset " + quoted(name) + " is missing");
   Handle const dataset(H5Dopen2(at, name, H5P_DEFAULT), H5Dclose, "cannot open dataset " + quoted(name));
   Handle const type(H5Dget_type(dataset), H5Tclose, "cannot read the type of dataset " + quoted(name));
   Handle const space(H5Dget_space(dataset), H5Sclose, "cannot read the size of dataset " + quoted(name));
-  require(H5Tget_class(type) == H5T_FLOAT, "dataset " + quoted(name) + " does not hold floating-point numbers");
+  require(H5Tget_class(type) == NumberType<T>::kind,
+          "dataset " + quoted(name) + " does not hold " + NumberType<T>::words);
   require(H5Sget_simple_extent_ndims(space) == rank,
           "dataset " + quoted(name) + " does not have rank " + std::to_string(rank));
   hsize_t dimension[2] = {0, 1};
   H5Sget_simple_extent_dims(space, dimension, nullptr);
   require(dimension[0] < largest_array && dimension[1] < largest_array && dimension[0] * dimension[1] < largest_array,
           "dataset " + quoted(name) + " is too large");
-  FloatArray array;
+  Table<T> array;
   array.rows = static_cast<int>(dimension[0]);
   array.columns = rank == 2 ? static_cast<int>(dimension[1]) : -1;
   array.value.resize(dimension[0] * dimension[1]);
   if (!array.value.empty())
-    require(H5Dread(dataset, H5T_NATIVE_FLOAT, H5S_ALL, H5S_ALL, H5P_DEFAULT, array.value.data()) >= 0,
+    require(H5Dread(dataset, NumberType<T>::memory(), H5S_ALL, H5S_ALL, H5P_DEFAULT, array.value.data()) >= 0,
             "cannot read dataset " + quoted(name));
   return array;
 }
+
+template void write_table(hid_t, char const*, Table<float> const&);
+template void write_table(hid_t, char const*, Table<double> const&);
+template void write_table(hid_t, char const*, Table<int> const&);
+template Table<float> read_table(hid_t, char const*, int);
+template Table<double> read_table(hid_t, char const*, int);
+template Table<int> read_table(hid_t, char const*, int);
 
 }  // namespace scree::hdf5

@@ -60,14 +60,21 @@ std::vector<double> read_doubles(hid_t at, char const* name, int count);
 std::int64_t read_integer(hid_t at, char const* name);
 std::string read_string(hid_t at, char const* name);
 
-// Float arrays of rank 1 (columns = -1) or 2, row-major.
-struct FloatArray {
-  std::vector<float> value;
+// Arrays of rank 1 (columns = -1) or 2, row-major, of float, double or int.
+template <class T>
+struct Table {
+  std::vector<T> value;
   int rows = 0;
   int columns = -1;
 };
-void write_floats(hid_t at, char const* name, FloatArray const& array);
+template <class T>
+void write_table(hid_t at, char const* name, Table<T> const& array);
+template <class T>
+Table<T> read_table(hid_t at, char const* name, int rank);
 bool has_dataset(hid_t at, char const* name);
-FloatArray read_floats(hid_t at, char const* name, int rank);
+
+using FloatArray = Table<float>;
+inline void write_floats(hid_t at, char const* name, FloatArray const& array) { write_table(at, name, array); }
+inline FloatArray read_floats(hid_t at, char const* name, int rank) { return read_table<float>(at, name, rank); }
 
 }  // namespace scree::hdf5

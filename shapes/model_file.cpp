@@ -2,6 +2,7 @@
 //   /            format version sign unit shapes
 //   /net/<k>     activation parameter; w0..wL f4 [in, out], b0..bL f4 [out]
 //   /codes       f4 [coded shapes, longest code]; a row's tail beyond its network's code size is zero
+//   /harmonics /mesh /grid     model_parts.h; a file with none of them is of version 1
 //   /shape/<name>              index (order in the library), kind, what the kind needs, mass and bounds
 //   /shape/<name>/certificate  one attribute a figure
 // SPDX-License-Identifier: Apache-2.0
@@ -17,12 +18,17 @@
 
 #include "shapes/file_container.h"
 #include "shapes/hdf5_handle.h"
+#include "shapes/model_parts.h"
 
 namespace scree {
 namespace {
 
 char constexpr format_name[] = "scree.model";
-int constexpr format_version = 1;
+int constexpr format_version = 2;
+
+// Version 1 knows networks and formulas only; older programs read what needs no more.
+int version_of(Library const& library) { return has_model_parts(library) ? 2 : 1; }
+
 char constexpr certificate_group[] = "certificate";
 
 // One visitor names every certificate entry once, for writing and for reading.
@@ -104,21 +110,27 @@ Mlp read_net(hid_t file, int k) {
   }
 }
 
+bool has_query(ShapeKind kind) { return kind == ShapeKind::net || kind == ShapeKind::harmonics; }
+
 void write_shape(hid_t file, int index, int code_row, Shape const& s) {
   hdf5::Handle const group = hdf5::create_group(file, "/shape/" + s.name);
   write_value(group, "index", index);
-  if (s.is_net) {
-    write_value(group, "kind", std::string("net"));
-    write_value(group, "net", s.net);
-    write_value(group, "code", code_row);
-    hdf5::write_attribute(group, "query_rotation", &s.query.rotation.row[0].x, 9);
-    write_value(group, "query_shift", s.query.shift);
-    write_value(group, "query_scale", s.query.scale);
-  } else {
-    write_value(group, "kind", std::string(to_string(s.analytic.kind)));
+  bool const analytic = s.kind == ShapeKind::analytic;
+  write_value(group, "kind", std::string(analytic ? to_string(s.analytic.kind) : to_string(s.kind)));
+  if (analytic) {
     write_value(group, "half_size", s.analytic.half_size);
     write_value(group, "exponent_ns", s.analytic.exponent_ns);
     write_value(group, "exponent_ew", s.analytic.exponent_ew);
+  } else if (s.is_net()) {
+    write_value(group, "net", s.net);
+    write_value(group, "code", code_row);
+  } else {
+    write_value(group, "data", s.data);
+  }
+  if (has_query(s.kind)) {
+    hdf5::write_attribute(group, "query_rotation", &s.query.rotation.row[0].x, 9);
+    write_value(group, "query_shift", s.query.shift);
+    write_value(group, "query_scale", s.query.scale);
   }
   write_value(group, "volume", s.volume);
   write_value(group, "area", s.area);
@@ -148,8 +160,9 @@ Shape read_shape(hid_t group, std::string const& name, hdf5::FloatArray const& c
   Shape s;
   s.name = name;
   std::string const kind = hdf5::read_string(group, "kind");
-  s.is_net = kind == "net";
-  if (s.is_net) {
+  for (ShapeKind k : {ShapeKind::net, ShapeKind::harmonics, ShapeKind::mesh, ShapeKind::grid})
+    if (kind == to_string(k)) s.kind = k;
+  if (s.is_net()) {
     read_value(group, "net", s.net);
     if (s.net < 0 || s.net >= static_cast<int>(nets.size()))
       throw std::runtime_error("attribute 'net' = " + std::to_string(s.net) + ", but the file has " +
@@ -157,15 +170,19 @@ Shape read_shape(hid_t group, std::string const& name, hdf5::FloatArray const& c
     int row = -1;
     read_value(group, "code", row);
     s.code = read_code(codes, row, nets[s.net].code_size());
-    std::vector<double> const r = hdf5::read_doubles(group, "query_rotation", 9);
-    s.query.rotation = {{{r[0], r[1], r[2]}, {r[3], r[4], r[5]}, {r[6], r[7], r[8]}}};
-    read_value(group, "query_shift", s.query.shift);
-    read_value(group, "query_scale", s.query.scale);
+  } else if (s.kind != ShapeKind::analytic) {
+    read_value(group, "data", s.data);
   } else {
     s.analytic.kind = analytic_kind_from_string(kind);
     read_value(group, "half_size", s.analytic.half_size);
     read_value(group, "exponent_ns", s.analytic.exponent_ns);
     read_value(group, "exponent_ew", s.analytic.exponent_ew);
+  }
+  if (has_query(s.kind)) {
+    std::vector<double> const r = hdf5::read_doubles(group, "query_rotation", 9);
+    s.query.rotation = {{{r[0], r[1], r[2]}, {r[3], r[4], r[5]}, {r[6], r[7], r[8]}}};
+    read_value(group, "query_shift", s.query.shift);
+    read_value(group, "query_scale", s.query.scale);
   }
   read_value(group, "volume", s.volume);
   read_value(group, "area", s.area);
@@ -202,12 +219,13 @@ void read_shapes(hid_t parent, std::string const& prefix, hdf5::FloatArray const
 void write_content(std::string const& file_name, Library const& library) {
   hdf5::Handle file = hdf5::create_file(file_name);
   write_value(file, "format", std::string(format_name));
-  write_value(file, "version", format_version);
+  write_value(file, "version", version_of(library));
   write_value(file, "sign", std::string("positive_inside"));
   write_value(file, "unit", std::string("d"));
   write_value(file, "nets", static_cast<int>(library.net.size()));
   write_value(file, "shapes", static_cast<int>(library.shape.size()));
   for (std::size_t k = 0; k < library.net.size(); ++k) write_net(file, static_cast<int>(k), library.net[k]);
+  write_model_parts(file, library);
   hdf5::FloatArray codes;
   codes.columns = 0;
   for (Shape const& s : library.shape) codes.columns = std::max(codes.columns, static_cast<int>(s.code.size()));
@@ -233,6 +251,7 @@ Library read_content(std::string const& file_name) {
     throw std::runtime_error("its counts are out of range");
   Library library;
   for (int k = 0; k < nets; ++k) library.net.push_back(read_net(file, k));
+  read_model_parts(file, library);
   hdf5::FloatArray codes;
   if (hdf5::has_dataset(file, "codes")) codes = hdf5::read_floats(file, "codes", 2);
   library.shape.resize(static_cast<std::size_t>(shapes));
@@ -258,7 +277,7 @@ void write_model(std::filesystem::path const& file, Library const& library, bool
   std::filesystem::path const temporary = file.string() + ".partial-" + std::to_string(::getpid());
   try {
     write_content(temporary.string(), library);
-    seal_container(temporary, file, format_name, format_version);
+    seal_container(temporary, file, format_name, static_cast<std::uint32_t>(version_of(library)));
   } catch (std::exception const& e) {
     std::error_code ignored;
     std::filesystem::remove(temporary, ignored);

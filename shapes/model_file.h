@@ -1,4 +1,4 @@
-// model_file.h: networks, codes, shapes and certificates in one HDF5 model file ("scree.model", version 1).
+// model_file.h: networks, radii, meshes, grids, codes, shapes and certificates in one HDF5 model file ("scree.model").
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

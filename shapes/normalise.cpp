@@ -16,24 +16,6 @@ namespace {
 
 double constexpr margin = 1e-4;  // of bounding radius and box beyond the refined extreme points [d]
 
-// Principal inertias in ascending order and a right-handed frame of axes (rows). Signs: each of the first two axes has
-// its largest component positive, so that the frame does not depend on the solver.
-void principal_axes(Mat3 const& inertia, Vec3& value, Mat3& axes) {
-  Eigen::Matrix3d m;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) m(i, j) = 0.5 * (inertia.row[i][j] + inertia.row[j][i]);
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> const solver(m);
-  for (int a = 0; a < 2; ++a) {
-    Eigen::Vector3d v = solver.eigenvectors().col(a);
-    int largest = 0;
-    v.cwiseAbs().maxCoeff(&largest);
-    if (v(largest) < 0) v = -v;
-    axes.row[a] = {v(0), v(1), v(2)};
-  }
-  axes.row[2] = cross(axes.row[0], axes.row[1]);
-  value = {solver.eigenvalues()(0), solver.eigenvalues()(1), solver.eigenvalues()(2)};
-}
-
 // x_net = R (x s) + t and phi = phi_net / s, absorbed by the first and the last layer.
 void fold_into_layers(Mlp& net, QueryTransform const& q) {
   int const out = net.width[1];
@@ -50,7 +32,7 @@ void fold_into_layers(Mlp& net, QueryTransform const& q) {
 bool uses_net_alone(Library const& library, int index) {
   Shape const& s = library.shape[index];
   auto const users = std::count_if(library.shape.begin(), library.shape.end(),
-                                   [&](Shape const& o) { return o.is_net && o.net == s.net; });
+                                   [&](Shape const& o) { return o.is_net() && o.net == s.net; });
   return s.code.empty() && users == 1;
 }
 
@@ -85,6 +67,22 @@ void set_bounds(PhiBatch const& phi, ZeroSet const& set, Shape& shape) {
 
 }  // namespace
 
+void principal_axes(Mat3 const& inertia, Vec3& moment, Mat3& axes) {
+  Eigen::Matrix3d m;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) m(i, j) = 0.5 * (inertia.row[i][j] + inertia.row[j][i]);
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> const solver(m);
+  for (int a = 0; a < 2; ++a) {
+    Eigen::Vector3d v = solver.eigenvectors().col(a);
+    int largest = 0;
+    v.cwiseAbs().maxCoeff(&largest);
+    if (v(largest) < 0) v = -v;
+    axes.row[a] = {v(0), v(1), v(2)};
+  }
+  axes.row[2] = cross(axes.row[0], axes.row[1]);
+  moment = {solver.eigenvalues()(0), solver.eigenvalues()(1), solver.eigenvalues()(2)};
+}
+
 double sampled_lipschitz(PhiBatch const& phi, double radius, int samples, double factor) {
   // Additive recurrence of Roberts (2018): alpha_i = phi_3^-i, phi_3^4 = phi_3 + 1; points outside the ball are
   // skipped.
@@ -110,8 +108,15 @@ double sampled_lipschitz(PhiBatch const& phi, double radius, int samples, double
 }
 
 RawShape normalise_net(Library& library, int index, double raw_radius, NormaliseOptions const& options) {
+  Shape const& shape = library.shape.at(static_cast<std::size_t>(index));
+  if (!shape.is_net()) throw std::invalid_argument("normalise_net: shape '" + shape.name + "' is not a network");
+  return normalise_shape(library, index, raw_radius, options);
+}
+
+RawShape normalise_shape(Library& library, int index, double raw_radius, NormaliseOptions const& options) {
   Shape& shape = library.shape.at(static_cast<std::size_t>(index));
-  if (!shape.is_net) throw std::invalid_argument("normalise_net: shape '" + shape.name + "' is not a network");
+  if (!shape.is_net() && shape.kind != ShapeKind::harmonics)
+    throw std::invalid_argument("normalise_shape: shape '" + shape.name + "' has no query transform");
   RawShape raw;
   PhiBatch const phi_before = fast_phi(library, shape, options.threads);
   ZeroSet set = find_zero_set(phi_before, {raw_radius, options.cells, 0});
@@ -129,7 +134,7 @@ RawShape normalise_net(Library& library, int index, double raw_radius, Normalise
   shape.query.rotation = before.rotation * transpose(raw.axes);
   shape.query.shift = before.rotation * (raw.centroid * before.scale) + before.shift;
   shape.query.scale = before.scale * raw.diameter;
-  if (uses_net_alone(library, index)) {
+  if (shape.is_net() && uses_net_alone(library, index)) {
     fold_into_layers(library.net[shape.net], shape.query);
     shape.query = {};
   }
@@ -143,8 +148,9 @@ RawShape normalise_net(Library& library, int index, double raw_radius, Normalise
   for (Vec3& v : set.mesh.vertex) v = raw.axes * (v - raw.centroid) / d;
   set.cell /= d;
   set_bounds(phi, set, shape);
-  shape.lipschitz =
-      sampled_lipschitz(phi, 1.1 * shape.bounding_radius, options.lipschitz_samples, options.lipschitz_factor);
+  if (shape.is_net())
+    shape.lipschitz =
+        sampled_lipschitz(phi, 1.1 * shape.bounding_radius, options.lipschitz_samples, options.lipschitz_factor);
   return raw;
 }
 

@@ -8,7 +8,9 @@
 #include <stdexcept>
 #include <vector>
 
+#include "kernels/sdf/harmonics.h"
 #include "kernels/sdf/sdf_batch.h"
+#include "shapes/harmonic_shape.h"
 
 namespace scree {
 namespace {
@@ -30,7 +32,7 @@ struct FastNet {
     int const n = point.size();
     std::vector<Vec3f> x(n);
     std::vector<float> value(n);
-    for (int i = 0; i < n; ++i) x[i] = to_float(query.rotation * (point[i] * query.scale) + query.shift);
+    for (int i = 0; i < n; ++i) x[i] = to_float(query(point[i]));
     if (gradient.empty()) {
       sdf_forward(queue, net, bias, x, {}, value);
     } else {
@@ -67,6 +69,55 @@ struct GaugeField {
   }
 };
 
+// The fields below are evaluated point by point in double: at(x, gradient or null).
+struct AnalyticField {
+  AnalyticSdf sdf;
+  double at(Vec3 x, Vec3* gradient) const { return signed_distance(sdf, x, gradient); }
+};
+struct MeshField {
+  std::shared_ptr<MeshTree const> tree;
+  double at(Vec3 x, Vec3* gradient) const { return mesh_distance(tree->sdf(), x, gradient); }
+};
+struct GridField {
+  std::shared_ptr<SdfGrid const> grid;
+  double at(Vec3 x, Vec3* gradient) const { return grid_distance(grid->frame, grid->value, x, gradient); }
+};
+struct RadialField {
+  std::vector<double> coefficient;
+  QueryTransform query;
+  double at(Vec3 x, Vec3* gradient) const {
+    double const phi = radial_distance(coefficient, query(x), gradient);
+    if (gradient) *gradient = transposed_times(query.rotation, *gradient);
+    return phi / query.scale;
+  }
+};
+
+// r_min (1 - |x| / r): the gauge of a star-shaped body. Unlike the radial distance it is smooth up to the centre.
+struct RadialGauge {
+  std::vector<double> coefficient;
+  QueryTransform query;
+  double inner_radius;
+
+  double at(Vec3 x, Vec3* gradient) const {
+    Vec3 const own = query(x);
+    double const length = norm(own);
+    Vec3 const n = length > 0 ? own / length : Vec3{0, 0, 1};
+    Vec3 slope;
+    double const r = harmonic_radius(coefficient, n, gradient ? &slope : nullptr);
+    if (gradient) *gradient = transposed_times(query.rotation, (slope / r - n) * (inner_radius / r));
+    return inner_radius * (1 - length / r) / query.scale;
+  }
+};
+
+template <class Field>
+PhiBatch pointwise(Field const& field, int threads) {
+  return [field, threads](Span<const Vec3> point, Span<double> phi, Span<Vec3> gradient) {
+    int const n = point.size();
+#pragma omp parallel for schedule(dynamic, 64) num_threads(threads) if (threads > 1 && n > 256)
+    for (int i = 0; i < n; ++i) phi[i] = field.at(point[i], gradient.empty() ? nullptr : &gradient[i]);
+  };
+}
+
 }  // namespace
 
 PhiBatch reference_phi(Library const& library, Shape const& shape) {
@@ -77,22 +128,34 @@ PhiBatch reference_phi(Library const& library, Shape const& shape) {
 }
 
 PhiBatch fast_phi(Library const& library, Shape const& shape, int threads) {
-  if (shape.is_net) {
-    auto const fast = std::make_shared<FastNet const>(library, shape, threads);
-    return [fast](Span<const Vec3> point, Span<double> phi, Span<Vec3> gradient) { (*fast)(point, phi, gradient); };
+  auto const data = static_cast<std::size_t>(shape.data);
+  switch (shape.kind) {
+    case ShapeKind::analytic:
+      return pointwise(AnalyticField{shape.analytic}, threads);
+    case ShapeKind::harmonics:
+      return pointwise(RadialField{library.harmonics.at(data), shape.query}, threads);
+    case ShapeKind::mesh:
+      return pointwise(MeshField{library.mesh.at(data)}, threads);
+    case ShapeKind::grid:
+      return pointwise(GridField{library.grid.at(data)}, threads);
+    case ShapeKind::net:
+      break;
   }
-  return [sdf = shape.analytic](Span<const Vec3> point, Span<double> phi, Span<Vec3> gradient) {
-    for (int i = 0; i < point.size(); ++i)
-      phi[i] = signed_distance(sdf, point[i], gradient.empty() ? nullptr : &gradient[i]);
-  };
+  auto const fast = std::make_shared<FastNet const>(library, shape, threads);
+  return [fast](Span<const Vec3> point, Span<double> phi, Span<Vec3> gradient) { (*fast)(point, phi, gradient); };
 }
 
 PhiBatch surface_phi(Library const& library, Shape const& shape, int threads) {
-  if (shape.is_net || shape.analytic.kind != AnalyticKind::superellipsoid) return fast_phi(library, shape, threads);
-  return [field = GaugeField(shape.analytic)](Span<const Vec3> point, Span<double> phi, Span<Vec3> gradient) {
-    for (int i = 0; i < point.size(); ++i) phi[i] = field.at(point[i], gradient.empty() ? nullptr : &gradient[i]);
-  };
+  if (shape.kind == ShapeKind::analytic && shape.analytic.kind == AnalyticKind::superellipsoid)
+    return pointwise(GaugeField(shape.analytic), threads);
+  if (shape.kind == ShapeKind::harmonics) {
+    std::vector<double> const& c = library.harmonics.at(static_cast<std::size_t>(shape.data));
+    return pointwise(RadialGauge{c, shape.query, radius_range(c).least}, threads);
+  }
+  return fast_phi(library, shape, threads);
 }
+
+double surface_lipschitz(Shape const& shape) { return shape.kind == ShapeKind::grid ? 0 : shape.lipschitz; }
 
 void project_to_surface(PhiBatch const& phi, Span<Vec3> point, Span<Vec3> gradient, double reach, int steps,
                         Span<double> remaining) {

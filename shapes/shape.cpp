@@ -7,6 +7,9 @@
 #include <set>
 #include <stdexcept>
 
+#include "kernels/sdf/harmonics.h"
+#include "shapes/harmonic_shape.h"
+
 namespace scree {
 namespace {
 
@@ -51,6 +54,11 @@ bool finite_figures(Certificate const& c) {
   return true;
 }
 
+void add_query_problems(Shape const& s, std::vector<std::string>& found) {
+  if (!positive(s.query.scale) || !is_finite(s.query.shift)) found.push_back("the query transform is not finite");
+  if (!proper_rotation(s.query.rotation)) found.push_back("the query transform's rotation is not a proper rotation");
+}
+
 void add_net_problems(Library const& library, Shape const& s, std::vector<std::string>& found) {
   if (s.net < 0 || s.net >= static_cast<int>(library.net.size())) {
     found.push_back("network " + std::to_string(s.net) + " does not exist (there are " +
@@ -63,8 +71,42 @@ void add_net_problems(Library const& library, Shape const& s, std::vector<std::s
                     std::to_string(wanted));
   if (std::any_of(s.code.begin(), s.code.end(), [](float v) { return !std::isfinite(v); }))
     found.push_back("the code has a NaN or infinite number");
-  if (!positive(s.query.scale) || !is_finite(s.query.shift)) found.push_back("the query transform is not finite");
-  if (!proper_rotation(s.query.rotation)) found.push_back("the query transform's rotation is not a proper rotation");
+  add_query_problems(s, found);
+}
+
+// Index of a shape's part in a list of the library; reports one that does not exist.
+template <class T>
+T const* part_of(std::vector<T> const& list, Shape const& s, std::vector<std::string>& found) {
+  if (s.data >= 0 && s.data < static_cast<int>(list.size())) return &list[s.data];
+  found.push_back(std::string(to_string(s.kind)) + " " + std::to_string(s.data) + " does not exist (there are " +
+                  std::to_string(list.size()) + ")");
+  return nullptr;
+}
+
+std::vector<std::string> harmonics_problems(std::vector<double> const& c) {
+  if (harmonic_degree(static_cast<int>(c.size())) < 0 || harmonic_degree(static_cast<int>(c.size())) > 40)
+    return {std::to_string(c.size()) + " coefficients: (degree + 1)^2 of a degree of at most 40 are needed"};
+  if (std::any_of(c.begin(), c.end(), [](double v) { return !std::isfinite(v); }))
+    return {"a coefficient is NaN or infinite"};
+  if (!(radius_range(c).least > 0)) return {"the radius is not positive everywhere: the body is not star-shaped"};
+  return {};
+}
+
+std::vector<std::string> grid_problems(SdfGrid const& g) {
+  GridFrame const& f = g.frame;
+  if (f.nx < 2 || f.ny < 2 || f.nz < 2 || f.points() != g.value.size())
+    return {"its size does not match its values, or is below 2 points"};
+  if (!positive(f.cell) || !is_finite(f.origin)) return {"its cell or origin is not finite and positive"};
+  if (std::any_of(g.value.begin(), g.value.end(), [](float v) { return !std::isfinite(v); }))
+    return {"a value is NaN or infinite"};
+  std::size_t i = 0;
+  for (int z = 0; z < f.nz; ++z)
+    for (int y = 0; y < f.ny; ++y)
+      for (int x = 0; x < f.nx; ++x, ++i) {
+        bool const face = x == 0 || y == 0 || z == 0 || x == f.nx - 1 || y == f.ny - 1 || z == f.nz - 1;
+        if (face && g.value[i] > 0) return {"phi is positive on a face of its box: the box cuts the body"};
+      }
+  return {};
 }
 
 void add_analytic_problems(Shape const& s, std::vector<std::string>& found) {
@@ -78,10 +120,24 @@ void add_analytic_problems(Shape const& s, std::vector<std::string>& found) {
 
 std::vector<std::string> shape_problems(Library const& library, Shape const& s) {
   std::vector<std::string> found;
-  if (s.is_net)
-    add_net_problems(library, s, found);
-  else
-    add_analytic_problems(s, found);
+  switch (s.kind) {
+    case ShapeKind::analytic:
+      add_analytic_problems(s, found);
+      break;
+    case ShapeKind::net:
+      add_net_problems(library, s, found);
+      break;
+    case ShapeKind::harmonics:
+      part_of(library.harmonics, s, found);
+      add_query_problems(s, found);
+      break;
+    case ShapeKind::mesh:
+      part_of(library.mesh, s, found);
+      break;
+    case ShapeKind::grid:
+      part_of(library.grid, s, found);
+      break;
+  }
   if (!positive(s.volume)) found.push_back("volume must be finite and positive");
   if (!positive(s.area)) found.push_back("area must be finite and positive");
   if (!positive(s.inertia)) found.push_back("inertia must be finite and positive");
@@ -104,14 +160,40 @@ char const* to_string(AnalyticKind kind) {
 AnalyticKind analytic_kind_from_string(std::string const& name) {
   for (KindName const& k : kind_names)
     if (name == k.name) return k.kind;
-  throw std::invalid_argument("unknown shape kind '" + name + "' (net, sphere, ellipsoid, superellipsoid, box)");
+  throw std::invalid_argument("unknown shape kind '" + name +
+                              "' (net, harmonics, mesh, grid, sphere, ellipsoid, superellipsoid, box)");
+}
+
+char const* to_string(ShapeKind kind) {
+  switch (kind) {
+    case ShapeKind::analytic:
+      return "analytic";
+    case ShapeKind::net:
+      return "net";
+    case ShapeKind::harmonics:
+      return "harmonics";
+    case ShapeKind::mesh:
+      return "mesh";
+    case ShapeKind::grid:
+      return "grid";
+  }
+  throw std::invalid_argument("this ShapeKind does not exist");
 }
 
 std::vector<std::string> problems(Library const& library) {
   std::vector<std::string> found;
   for (std::size_t k = 0; k < library.net.size(); ++k)
     for (std::string const& p : problems(library.net[k])) found.push_back("network " + std::to_string(k) + ": " + p);
-  if (!found.empty()) return found;  // shapes are checked against sound networks
+  for (std::size_t k = 0; k < library.harmonics.size(); ++k)
+    for (std::string const& p : harmonics_problems(library.harmonics[k]))
+      found.push_back("harmonics " + std::to_string(k) + ": " + p);
+  for (std::size_t k = 0; k < library.mesh.size(); ++k)
+    if (!library.mesh[k]) found.push_back("mesh " + std::to_string(k) + " is empty");
+  for (std::size_t k = 0; k < library.grid.size(); ++k)
+    for (std::string const& p :
+         library.grid[k] ? grid_problems(*library.grid[k]) : std::vector<std::string>{"is empty"})
+      found.push_back("grid " + std::to_string(k) + ": " + p);
+  if (!found.empty()) return found;  // shapes are checked against sound parts
   std::set<std::string> names;
   for (std::size_t i = 0; i < library.shape.size(); ++i) {
     Shape const& s = library.shape[i];
@@ -125,14 +207,26 @@ std::vector<std::string> problems(Library const& library) {
 }
 
 double evaluate_reference(Library const& library, Shape const& shape, Vec3 x, Vec3* gradient) {
-  if (!shape.is_net) return signed_distance(shape.analytic, x, gradient);
-  Mlp const& net = library.net.at(static_cast<std::size_t>(shape.net));
-  QueryTransform const& q = shape.query;
-  double const phi =
-      evaluate_reference(net, fold_code(net, shape.code), q.rotation * (x * q.scale) + q.shift, gradient);
-  // phi = phi_net / scale and x_net = R (scale x) + shift: the scale cancels in the gradient.
-  if (gradient) *gradient = transposed_times(q.rotation, *gradient);
-  return phi / q.scale;
+  auto const data = static_cast<std::size_t>(shape.data);
+  double phi = 0;
+  switch (shape.kind) {
+    case ShapeKind::analytic:
+      return signed_distance(shape.analytic, x, gradient);
+    case ShapeKind::mesh:
+      return mesh_distance(library.mesh.at(data)->sdf(), x, gradient);
+    case ShapeKind::grid:
+      return grid_distance(library.grid.at(data)->frame, library.grid[data]->value, x, gradient);
+    case ShapeKind::harmonics:
+      phi = radial_distance(library.harmonics.at(data), shape.query(x), gradient);
+      break;
+    case ShapeKind::net:
+      Mlp const& net = library.net.at(static_cast<std::size_t>(shape.net));
+      phi = evaluate_reference(net, fold_code(net, shape.code), shape.query(x), gradient);
+      break;
+  }
+  // phi = phi_own / scale and x_own = R (scale x) + shift: the scale cancels in the gradient.
+  if (gradient) *gradient = transposed_times(shape.query.rotation, *gradient);
+  return phi / shape.query.scale;
 }
 
 }  // namespace scree

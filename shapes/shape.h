@@ -10,16 +10,20 @@
 
 #include "kernels/base/vec.h"
 #include "kernels/sdf/analytic.h"
+#include "kernels/sdf/grid.h"
 #include "kernels/sdf/mlp.h"
+#include "shapes/mesh_tree.h"
 
 namespace scree {
 
-// Where a network is evaluated: x_net = rotation * (x * scale) + shift, phi = phi_net / scale, and
-// grad phi = rotation^T grad phi_net. Identity for single networks (folded into their first layer).
+// Where a network or a radius is evaluated: x_own = rotation * (x * scale) + shift, phi = phi_own / scale, and
+// grad phi = rotation^T grad phi_own. Identity for single networks (folded into their first layer).
 struct QueryTransform {
   Mat3 rotation;
   Vec3 shift;
   double scale = 1;
+
+  Vec3 operator()(Vec3 x) const { return rotation * (x * scale) + shift; }
 };
 
 // What a shape promises and how far off it is, in units of d; measured by training and `scree-shape inspect`.
@@ -38,30 +42,55 @@ struct Certificate {
   std::string made_with;    // library versions
 };
 
+// What defines phi.
+enum class ShapeKind {
+  analytic,   // Shape::analytic, a true distance
+  net,        // a network, with a code where it is shared
+  harmonics,  // a star-shaped body by its radius: the distance along the ray
+  mesh,       // the true distance to a closed triangle mesh in the body frame
+  grid,       // trilinear values in the body frame
+};
+
 struct Shape {
-  std::string name;                     // "ballast/0"
-  bool is_net = false;                  // else `analytic` defines phi
-  AnalyticSdf analytic;                 // kind and sizes in units of d
-  int net = -1;                         // index into Library::net
-  std::vector<float> code;              // latent code; empty for single networks
-  QueryTransform query;                 // networks only
+  std::string name;  // "ballast/0"
+  ShapeKind kind = ShapeKind::analytic;
+  AnalyticSdf analytic;                 // analytic: kind and sizes in units of d; else what it was baked from
+  int net = -1;                         // net: index into Library::net
+  int data = -1;                        // harmonics, mesh, grid: index into the Library's list of that name
+  std::vector<float> code;              // net: latent code; empty for single networks
+  QueryTransform query;                 // net and harmonics
   double volume = 0.52359877559829887;  // [d^3]; pi/6 by construction
   double area = 0;                      // surface area [d^2]
   Vec3 inertia;                         // principal, unit density [d^5]
   double bounding_radius = 0;  // of the zero set about the origin [d]; a network is never evaluated beyond 1.1 of it
   Box box;                     // of the zero set [d]
-  double lipschitz = 1;        // upper bound of |grad phi| within 1.1 bounding_radius
+  double lipschitz = 1;        // bound of |grad phi| outside the solid, of networks also inside, to 1.1 bounding_radius
   Certificate certificate;
+
+  bool is_net() const { return kind == ShapeKind::net; }
 };
 
+// phi on a grid in the body frame [d]; values on the faces of its box are not positive.
+struct SdfGrid {
+  GridFrame frame;
+  std::vector<float> value;  // (frame.points())
+};
+
+// What shapes are made of, and the shapes. Large immutable parts are shared between copies of a library.
 struct Library {
   std::vector<Mlp> net;
+  std::vector<std::vector<double>> harmonics;  // coefficients of r(direction), order of kernels/sdf/harmonics.h
+  std::vector<std::shared_ptr<MeshTree const>> mesh;
+  std::vector<std::shared_ptr<SdfGrid const>> grid;
   std::vector<Shape> shape;
 };
 
 // Names of the analytic grains: "sphere", "ellipsoid", "superellipsoid", "box". Both throw std::invalid_argument.
 char const* to_string(AnalyticKind kind);
 AnalyticKind analytic_kind_from_string(std::string const& name);
+
+// "analytic", "net", "harmonics", "mesh", "grid".
+char const* to_string(ShapeKind kind);
 
 // Everything wrong with a library (networks, indices, code sizes, non-finite figures, names), one sentence each that
 // names the network or shape; empty = valid.

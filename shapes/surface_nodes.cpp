@@ -23,7 +23,7 @@ ZeroSet fine_mesh(PhiBatch const& phi, Shape const& shape, double triangles) {
   double const area = shape.area > 0 ? shape.area : 4;
   double const cell = std::sqrt(10 * area / (triangles / 4));
   int const cells = std::clamp(static_cast<int>(2 * radius / cell), 12, 400);
-  ZeroSet fine = refine(phi, find_zero_set(phi, {radius, cells, shape.lipschitz}));
+  ZeroSet fine = refine(phi, find_zero_set(phi, {radius, cells, surface_lipschitz(shape)}));
   sharpen_corners(phi, fine);
   return fine;
 }

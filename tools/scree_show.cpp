@@ -33,7 +33,7 @@ void print_shapes(Library const& library) {
   fmt::print("{:<32} {:<14} {:>8} {:>8} {:>9} {:>9} {:>9} {:>9}\n", "shape", "kind", "radius", "area", "mae", "max",
              "normal95", "volume");
   for (Shape const& s : library.shape) {
-    std::string const kind = s.is_net ? fmt::format("network {}", s.net) : "analytic";
+    std::string const kind = s.is_net() ? fmt::format("network {}", s.net) : to_string(s.kind);
     fmt::print("{:<32} {:<14} {:>8.4f} {:>8.4f} {:>9} {:>9} {:>9} {:>9}\n", s.name, kind, s.bounding_radius, s.area,
                figure(s.certificate.mae), figure(s.certificate.max), figure(s.certificate.normal_p95),
                figure(s.certificate.volume_error));

@@ -10,8 +10,8 @@
 
 #include "shapes/mesh/mesh_check.h"
 #include "shapes/mesh/mesh_measures.h"
-#include "shapes/mesh/mesh_normalise.h"
 #include "shapes/mesh_files.h"
+#include "shapes/mesh_normalise.h"
 #include "tools/guarded.h"
 #include "tools/shape_commands.h"
 #include "tools/shape_input.h"

@@ -13,8 +13,8 @@
 #include <system_error>
 
 #include "shapes/mesh/mesh_check.h"
-#include "shapes/mesh/mesh_normalise.h"
 #include "shapes/mesh_files.h"
+#include "shapes/mesh_normalise.h"
 #include "shapes/model_file.h"
 #include "tools/guarded.h"
 #include "tools/train_commands.h"

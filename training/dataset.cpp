@@ -54,7 +54,8 @@ Body make_body(std::string name, TriangleMesh mesh, std::string source, std::str
 }
 
 Body make_body(std::string name, Shape const& analytic) {
-  if (analytic.is_net) throw std::invalid_argument("make_body: " + name + " is a network, no formula");
+  if (analytic.kind != ShapeKind::analytic)
+    throw std::invalid_argument("make_body: " + name + " is a " + to_string(analytic.kind) + ", no formula");
   Body body;
   body.name = std::move(name);
   body.source = analytic.name;

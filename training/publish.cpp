@@ -45,7 +45,7 @@ Library publish(TrainedNet const& trained, std::vector<Body> const& bodies, Publ
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     Shape shape;
     shape.name = bodies[b].name;
-    shape.is_net = true;
+    shape.kind = ShapeKind::net;
     shape.net = 0;
     shape.code = trained.code[b];
     shape.certificate.seed = static_cast<std::int64_t>(options.seed);

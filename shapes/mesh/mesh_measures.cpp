@@ -14,7 +14,7 @@
 #include <tuple>
 
 #include "shapes/mesh/cgal_mesh.h"
-#include "shapes/mesh/mesh_normalise.h"
+#include "shapes/mesh_normalise.h"
 
 namespace scree {
 namespace {

@@ -124,7 +124,7 @@ class Program : public testing::Test {
     library.net.push_back(net);
     Shape shape = make_sphere();
     shape.name = "ballast/0";
-    shape.is_net = true;
+    shape.kind = ShapeKind::net;
     shape.net = 0;
     library.shape.push_back(shape);
     write_model(folder_ / name, library);

@@ -141,7 +141,7 @@ std::filesystem::path write_warped_model() {
   library.net = {net};
   Shape shape;
   shape.name = "warped";
-  shape.is_net = true;
+  shape.kind = ShapeKind::net;
   shape.net = 0;
   library.shape = {shape};
   normalise_net(library, 0, 2.0);

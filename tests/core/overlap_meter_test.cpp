@@ -123,7 +123,7 @@ Shape octahedron(Library& library, double h) {
   library.net = {net};
   Shape s;
   s.name = "octahedron";
-  s.is_net = true;
+  s.kind = ShapeKind::net;
   s.net = 0;
   s.area = 4 * std::sqrt(3.0) * h * h;
   s.bounding_radius = h;

@@ -135,7 +135,7 @@ TEST(LightMesh, ShapeThatIsNotStarShapedFallsBackToTheZeroSet) {
   net.weight[1][0] = 0.2f;
   library.net.push_back(net);
   Shape s = make_sphere();
-  s.is_net = true;
+  s.kind = ShapeKind::net;
   s.net = 0;
   s.lipschitz = 5;
   library.shape.push_back(s);

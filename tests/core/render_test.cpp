@@ -138,7 +138,7 @@ Shape octahedron(Library& library, double size) {
   library.net = {net};
   Shape s;
   s.name = "octahedron/0";
-  s.is_net = true;
+  s.kind = ShapeKind::net;
   s.net = 0;
   s.bounding_radius = size;
   s.box = {{-size, -size, -size}, {size, size, size}};

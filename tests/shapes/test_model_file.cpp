@@ -67,7 +67,7 @@ Library coded_library(int shapes) {
   library.net.push_back(random_net({3, 8, 8, 1}, Activation::leaky_relu, 2));
   for (int i = 0; i < shapes; ++i) {
     Shape s = random_shape("ballast/" + std::to_string(i), 10 + i);
-    s.is_net = true;
+    s.kind = ShapeKind::net;
     s.net = i == 3 ? 1 : 0;
     if (s.net == 0)
       for (int k = 0; k < 10; ++k) s.code.push_back(0.1f * static_cast<float>(k - i));
@@ -90,7 +90,7 @@ bool same_bits(Vec3 a, Vec3 b) { return std::memcmp(&a, &b, sizeof(a)) == 0; }
 
 void expect_same(Shape const& a, Shape const& b) {
   EXPECT_EQ(a.name, b.name);
-  EXPECT_EQ(a.is_net, b.is_net);
+  EXPECT_EQ(a.kind, b.kind);
   EXPECT_EQ(a.analytic.kind, b.analytic.kind);
   EXPECT_TRUE(same_bits(a.analytic.half_size, b.analytic.half_size));
   EXPECT_EQ(a.analytic.exponent_ns, b.analytic.exponent_ns);

@@ -222,7 +222,7 @@ TEST(NormaliseNet, VolumeCentroidAndAxesOfTheZeroSet) {
   single.net.push_back(cosine_body(bend, turn, centre, size));
   single.shape.resize(1);
   single.shape[0].name = "a";
-  single.shape[0].is_net = true;
+  single.shape[0].kind = ShapeKind::net;
   single.shape[0].net = 0;
   Library const raw_library = single;
   RawShape const raw = normalise_net(single, 0, 1.6);
@@ -252,7 +252,7 @@ TEST(NormaliseNet, NothingToNormaliseIsAnError) {
   library.net.push_back(cosine_body({0.3, 0.3, 0.3}, {}, {}, 1));
   library.net[0].bias[1][0] = -10;
   library.shape.resize(1);
-  library.shape[0].is_net = true;
+  library.shape[0].kind = ShapeKind::net;
   library.shape[0].net = 0;
   EXPECT_THROW(normalise_net(library, 0, 1.0), std::runtime_error);
 }

@@ -81,7 +81,7 @@ TEST(AnalyticBody, HasTheFormulasDistancesMassAndSurface) {
   for (std::size_t i = 0; i < shell.point.size(); ++i)
     EXPECT_EQ(shell.phi[i], signed_distance(shape.analytic, shell.point[i], nullptr));
   Shape net;
-  net.is_net = true;
+  net.kind = ShapeKind::net;
   EXPECT_THROW(make_body("n", net), std::invalid_argument);
 }
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "shapes/mesh/icosphere.h"
-#include "shapes/mesh/mesh_normalise.h"
+#include "shapes/mesh_normalise.h"
 #include "training/dataset.h"
 #include "training/options.h"
 
