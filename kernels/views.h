@@ -5,6 +5,7 @@
 
 #include "kernels/base/span.h"
 #include "kernels/base/vec.h"
+#include "kernels/node_storage.h"
 #include "kernels/sdf/analytic.h"
 #include "kernels/sdf/grid.h"
 #include "kernels/sdf/mesh.h"
@@ -33,17 +34,10 @@ struct ShapeRecord {
   Box box;                                      // of the zero set in the body frame [d]
   double lipschitz = 1;                         // upper bound of |grad phi| outside the solid
   double node_spacing = 0;                      // typical [d]
-  int first_node = 0, nodes = 0;
+  int compact = -1;                             // of NodesView::compact; -1: nodes are kept as arrays
+  int first_node = 0, nodes = 0;                // first_node: of NodesView::position, compact: of NodesView::radius
   int first_block = 0, blocks = 0;
-};
-
-struct NodesView {
-  Span<const Vec3> position;        // [d], of all shapes (n_nodes)
-  Span<const double> area;          // [d^2] (n_nodes)
-  Span<const Vec3> block_centre;    // [d] (n_blocks)
-  Span<const double> block_radius;  // [d] (n_blocks)
-  Span<const int> block_first;      // first node of a block, relative to the shape's first node (n_blocks + shapes):
-                                    // block b of shape s at first_block[s] + s + b, with an end entry a shape
+  int first_bound = 0;  // of NodesView::block_first; not used when compact
 };
 
 // What the shapes that are neither formula nor network consist of, all shapes one after the other.

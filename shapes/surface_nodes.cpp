@@ -14,9 +14,6 @@
 namespace scree {
 namespace {
 
-int constexpr core_every = 4;       // one surface node in so many is repeated inside
-double constexpr core_scale = 0.5;  // at this share of its position, with core_every times its area
-
 // A mesh with about `triangles` after one refinement. Marching tetrahedra leave about ten triangles a surface cell.
 ZeroSet fine_mesh(PhiBatch const& phi, Shape const& shape, double triangles) {
   double const radius = 1.05 * shape.bounding_radius;

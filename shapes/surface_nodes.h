@@ -5,11 +5,10 @@
 
 #include <vector>
 
+#include "kernels/node_storage.h"
 #include "shapes/phi_batch.h"
 
 namespace scree {
-
-int constexpr nodes_per_block = 32;  // one network query decides over a block; 32 = 11-12 % of nodes survive it
 
 // Nodes of one shape, units of d, body frame, sorted so that consecutive runs of nodes_per_block are compact.
 // The first n_surface nodes lie on the surface; the rest are core nodes (every 4th surface node at half scale with
