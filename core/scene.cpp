@@ -14,7 +14,11 @@ namespace scree {
 SceneView Scene::view() const {
   SceneView v;
   v.shape = shape;
-  v.nodes = {node_position, node_area, block_centre, block_radius, block_first};
+  v.nodes.position = node_position;
+  v.nodes.area = node_area;
+  v.nodes.block_centre = block_centre;
+  v.nodes.block_radius = block_radius;
+  v.nodes.block_first = block_first;
   v.sdf = {coefficient, grid_value, mesh_node, mesh_corner, mesh_normal};
   v.shape_of = shape_of;
   v.material_of = material_of;

@@ -153,6 +153,7 @@ void append_nodes(SurfaceNodes const& nodes, ShapeRecord& record, Scene& scene) 
   record.first_node = static_cast<int>(scene.node_position.size());
   record.nodes = static_cast<int>(nodes.position.size());
   record.first_block = static_cast<int>(scene.block_centre.size());
+  record.first_bound = static_cast<int>(scene.block_first.size());
   record.blocks = static_cast<int>(nodes.block_centre.size());
   record.node_spacing = nodes.spacing;
   scene.node_position.insert(scene.node_position.end(), nodes.position.begin(), nodes.position.end());

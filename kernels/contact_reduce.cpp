@@ -4,6 +4,7 @@
 
 #include "kernels/base/parallel.h"
 #include "kernels/contact_laws.h"
+#include "kernels/node_access.h"
 #include "kernels/tangential.h"
 
 namespace scree {
@@ -43,9 +44,10 @@ struct ReducePair {
     out.sign = which == 0 ? -1 : 1;
     ShapeRecord const& shape = scene.shape_record(out.carrier);
     double const d = scene.diameter[out.carrier];
-    int const node = shape.first_node + active_node[i];
-    out.x = state.position[out.carrier] + kinematics.rotation[out.carrier] * (scene.nodes.position[node] * d);
-    out.weight = share * scene.nodes.area[node] * d * d;
+    int const node = active_node[i];
+    out.x =
+        state.position[out.carrier] + kinematics.rotation[out.carrier] * (node_position(scene.nodes, shape, node) * d);
+    out.weight = share * node_area(scene.nodes, shape, node) * d * d;
     if (out.partner < 0) {
       out.phi = phi[i];
       out.gradient = -scene.plane[-1 - out.partner].normal;

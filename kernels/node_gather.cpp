@@ -7,6 +7,7 @@
 
 #include "kernels/base/parallel.h"
 #include "kernels/base/sort_scan.h"
+#include "kernels/node_access.h"
 
 namespace scree {
 namespace {
@@ -39,14 +40,15 @@ struct DueNodes {
   Span<int> partner;
 
   SCREE_HD void operator()(int s) const {
-    int const base = scene.shape_record(side[s].carrier).first_node;
+    ShapeRecord const& shape = scene.shape_record(side[s].carrier);
     int n = 0;
     for (int i = first[s]; i < first[s + 1]; ++i) {
       if (due[i] > travelled[s]) continue;
       if (!entry.empty()) {
         int const at = due_first[s] + n;
         entry[at] = i;
-        point[at] = point_in_partner(scene, state, kinematics, side[s], scene.nodes.position[base + node[i]]);
+        Vec3 const p = node_position(scene.nodes, shape, node[i]);
+        point[at] = point_in_partner(scene, state, kinematics, side[s], p);
         partner[at] = side[s].partner;
       }
       ++n;

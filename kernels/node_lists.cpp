@@ -4,6 +4,7 @@
 
 #include "kernels/base/parallel.h"
 #include "kernels/base/sort_scan.h"
+#include "kernels/node_access.h"
 #include "kernels/node_gather.h"
 
 namespace scree {
@@ -137,9 +138,8 @@ struct CandidateBlocks {
       double const d = scene.diameter[side[s].carrier], unit = partner_unit(scene, side[s]);
       ToPartner const to_partner(scene, state, kinematics, side[s]);
       for (int b = 0; b < shape.blocks; ++b) {
-        Vec3 const y = to_partner(scene.nodes.block_centre[shape.first_block + b]);
-        double const apart =
-            outside_distance(scene, side[s], y) * unit - scene.nodes.block_radius[shape.first_block + b] * d;
+        Vec3 const y = to_partner(block_centre(scene.nodes, shape, b));
+        double const apart = outside_distance(scene, side[s], y) * unit - block_radius(scene.nodes, shape, b) * d;
         if (!brute_force && apart > skin[s]) {
           lower(least_gap, apart);
           continue;
@@ -195,10 +195,10 @@ struct CandidateNodes {
 
   SCREE_HD void operator()(int i) const {
     int const s = block_side[i], b = block_item[i];
-    int const carrier = side[s].carrier, shape_index = scene.shape_of[carrier];
-    ShapeRecord const& shape = scene.shape[shape_index];
+    int const carrier = side[s].carrier;
+    ShapeRecord const& shape = scene.shape_record(carrier);
     double const unit = partner_unit(scene, side[s]);
-    double const radius = scene.nodes.block_radius[shape.first_block + b] * scene.diameter[carrier];
+    double const radius = block_radius(scene.nodes, shape, b) * scene.diameter[carrier];
     // No point is nearer to the partner than this less its distance from the block's centre.
     double const from_centre = way_to_contact(scene, side[s], block_phi[i]);
     double least_gap = nothing_left_out;
@@ -207,10 +207,9 @@ struct CandidateNodes {
       least_gap = from_centre - radius;
     } else if (item.empty() || count[i] > 0) {
       ToPartner const to_partner(scene, state, kinematics, side[s]);
-      Span<const int> const bounds = scene.nodes.block_first;
-      int const entry = shape.first_block + shape_index + b;
-      for (int k = bounds[entry]; k < bounds[entry + 1]; ++k) {
-        Vec3 const y = to_partner(scene.nodes.position[shape.first_node + k]);
+      NodeRange const range = block_nodes(scene.nodes, shape, b);
+      for (int k = range.begin; k < range.end; ++k) {
+        Vec3 const y = to_partner(node_position(scene.nodes, shape, k));
         double const by_phi = from_centre - norm(y - block_point[i]) * unit;
         double const by_shape = outside_distance(scene, side[s], y) * unit;
         double const apart = by_phi > by_shape ? by_phi : by_shape;
