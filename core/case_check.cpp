@@ -228,7 +228,7 @@ void Checker::grains() {
     range(at + ".grid_cells", g.grid_cells, 8, true, 256,
           "cells across the bounding diameter; memory grows as its cube");
     range(at + ".mesh_cells", g.mesh_cells, 8, true, 128,
-          "cells across the bounding diameter; 16 give 30,000 triangles");
+          "cells across the bounding diameter; 16 give about 15,000 triangles");
     range(at + ".count", g.count, 0, true, 1e8, "number of grains");
     positive(at + ".diameter", g.diameter, "diameter of the equal-volume sphere in m");
     insertion(at, g);

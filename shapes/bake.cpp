@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "shapes/grid_shape.h"
@@ -28,6 +29,58 @@ GridFrame frame_around(Shape const& shape, int cells) {
     f.origin[i] = 0.5 * (shape.box.min[i] + shape.box.max[i] - across * f.cell);
   }
   return f;
+}
+
+// Triangles that face inwards: where creases and edges meet, projection may fold the surface over.
+std::vector<int> folded_triangles(PhiBatch const& phi, TriangleMesh const& mesh) {
+  std::vector<Vec3> centre, gradient(mesh.triangle.size());
+  std::vector<double> value(mesh.triangle.size());
+  for (auto const& t : mesh.triangle) centre.push_back((mesh.vertex[t[0]] + mesh.vertex[t[1]] + mesh.vertex[t[2]]) / 3);
+  phi(centre, value, gradient);
+  std::vector<int> folded;
+  for (std::size_t i = 0; i < mesh.triangle.size(); ++i) {
+    auto const& t = mesh.triangle[i];
+    Vec3 const p = mesh.vertex[t[0]];
+    if (dot(cross(mesh.vertex[t[1]] - p, mesh.vertex[t[2]] - p), gradient[i]) > 0)
+      folded.push_back(static_cast<int>(i));
+  }
+  return folded;
+}
+
+// Corners of folded triangles go to the mean of their neighbours until nothing is folded, or `rounds` times.
+void unfold(PhiBatch const& phi, TriangleMesh& mesh, int rounds) {
+  for (int round = 0; round < rounds; ++round) {
+    std::vector<int> const folded = folded_triangles(phi, mesh);
+    if (folded.empty()) return;
+    std::vector<char> moves(mesh.vertex.size(), 0);
+    for (int i : folded)
+      for (int v : mesh.triangle[i]) moves[v] = 1;
+    std::vector<Vec3> sum(mesh.vertex.size());
+    std::vector<int> count(mesh.vertex.size(), 0);
+    for (auto const& t : mesh.triangle)
+      for (int k = 0; k < 3; ++k) {  // each neighbour once: every edge is met in both directions
+        sum[t[k]] += mesh.vertex[t[(k + 1) % 3]];
+        ++count[t[k]];
+      }
+    for (std::size_t v = 0; v < mesh.vertex.size(); ++v)
+      if (moves[v]) mesh.vertex[v] = sum[v] / count[v];
+  }
+}
+
+// Share of points clearly inside or outside whose sign the mesh gets wrong: a folded surface has no sure inside.
+double wrong_signs(PhiBatch const& phi, MeshTree const& tree, double radius, double clear) {
+  int constexpr samples = 4000;
+  std::vector<Vec3> point = quasi_uniform_directions(samples);
+  for (int i = 0; i < samples; ++i) {
+    double const u = i * 0.6180339887498949;  // the golden section spreads the depths evenly
+    point[i] *= radius * std::cbrt(u - std::floor(u));
+  }
+  std::vector<double> value(samples);
+  phi(point, value, {});
+  int wrong = 0;
+  for (int i = 0; i < samples; ++i)
+    wrong += std::abs(value[i]) > clear && (mesh_distance(tree.sdf(), point[i], nullptr) > 0) != (value[i] > 0);
+  return double(wrong) / samples;
 }
 
 }  // namespace
@@ -67,8 +120,13 @@ Library bake_mesh(Library const& library, Shape const& source, int cells, int th
   ZeroSetOptions const options{1.05 * source.bounding_radius, cells, surface_lipschitz(source)};
   ZeroSet fine = refine(phi, find_zero_set(phi, options));
   sharpen_corners(phi, fine);
+  unfold(phi, fine.mesh, 30);
   Library out;
   out.mesh.push_back(std::make_shared<MeshTree const>(std::move(fine.mesh)));
+  double const wrong = wrong_signs(phi, *out.mesh[0], options.radius, 0.25 * fine.cell);
+  if (wrong > 0)
+    throw std::runtime_error("the mesh of its zero set folds over (" + std::to_string(100 * wrong) +
+                             " % of the points near it on the wrong side): another number of cells may help");
   out.shape.push_back(source);
   set_mesh(out, 0, out.shape[0]);
   return out;

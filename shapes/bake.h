@@ -7,7 +7,8 @@
 namespace scree {
 
 int constexpr default_grid_cells = 43;  // across the bounding diameter: the level-set grid of the reference paper
-int constexpr default_mesh_cells = 16;  // ... of the grid that is marched before one refinement: 30,000 triangles
+int constexpr default_mesh_cells =
+    16;  // ... of the grid that is marched before one refinement: 10,000 to 25,000 triangles
 
 // Both give a library with one shape: name, mass and certificate of `source`, another phi with its own box, bounding
 // radius and Lipschitz bound. The mass stays that of the source: baking changes how a grain is asked, not what it is.

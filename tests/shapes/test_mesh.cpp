@@ -11,8 +11,8 @@
 #include "shapes/mesh/mesh_check.h"
 #include "shapes/mesh/mesh_distance.h"
 #include "shapes/mesh/mesh_measures.h"
-#include "shapes/mesh_normalise.h"
 #include "shapes/mesh/procedural_grains.h"
+#include "shapes/mesh_normalise.h"
 #include "shapes/random.h"
 
 namespace scree {
