@@ -114,6 +114,33 @@ TEST_F(CaseFile, AbsentKeysAreAbsentEffects) {
   EXPECT_FALSE(c.contact[0].restitution.has_value());
 }
 
+TEST_F(CaseFile, EvaluatorsAndTheirCells) {
+  Case const grid = load(with(minimal, "count = 5", "count = 5\nevaluator = \"grid\"\ngrid_cells = 60"));
+  EXPECT_EQ(grid.grains.at(0).evaluator, Evaluator::grid);
+  EXPECT_EQ(grid.grains[0].grid_cells, 60);
+  Case const again = load(to_toml(grid));
+  EXPECT_EQ(again.grains.at(0).evaluator, Evaluator::grid);
+  EXPECT_EQ(again.grains[0].grid_cells, 60);
+  EXPECT_EQ(load(with(minimal, "count = 5", "count = 5\nevaluator = \"mesh\"")).grains.at(0).mesh_cells, 16);
+  expect_one(refused(with(minimal, "count = 5", "count = 5\ngrid_cells = 60")),
+             {"grains.mix.grid_cells", "evaluator = \"grid\" only"});
+  expect_one(refused(with(minimal, "count = 5", "count = 5\nevaluator = \"mesh\"\nmesh_cells = 2")),
+             {"grains.mix.mesh_cells", "2 is out of range"});
+}
+
+TEST_F(CaseFile, MeshFilesAreLookedForBesideTheCase) {
+  write("solid\nendsolid\n", "rock.stl");
+  std::string const text = with(minimal, "\"sphere\"", "\"mesh:rock.stl\"");
+  Case const c = load(text);
+  EXPECT_EQ(c.grains.at(0).shapes.at(0), "mesh:" + fs::weakly_canonical(folder_ / "rock.stl").string());
+  EXPECT_EQ(mesh_file_of(c.grains[0].shapes[0]).filename(), "rock.stl");
+  EXPECT_EQ(mesh_file_of("sphere"), "");
+  expect_one(refused(with(text, "rock.stl", "stone.stl")), {"grains.mix.shapes", "'stone.stl' was not found; tried"});
+  write("", "grains.h5");
+  expect_one(refused(std::string(minimal) + "[[library]]\nname = \"mesh\"\nfile = \"grains.h5\"\n"),
+             {"library.mesh.name", "choose another name"});
+}
+
 TEST_F(CaseFile, FastNodesAndExplicitStep) {
   Case const c =
       load(with(with(minimal, "count = 5", "count = 5\nnodes = \"fast\""), "end = 1.5", "end = 1.5\nstep = 1e-5"));

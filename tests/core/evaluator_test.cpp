@@ -195,7 +195,8 @@ TEST_F(Evaluators, ASphereSettlesAtOneHeightUnderEveryEvaluator) {
   EXPECT_NEAR(exact, d / 2 - sunk, 1e-9);
   EXPECT_EQ(height("sphere", Evaluator::analytic), exact);
   // On a plane a grain answers by where its nodes stand. 2,000 of them, 0.04 d apart, find contacts of 0.024 d across
-  // to 1e-4 d; the grid adds its float values, the mesh its chords, up to s^2 / 8 R = 8e-4 d for edges of s = 0.06 d.
+  // to 1e-4 d; the grid adds what interpolation moves the pole by, the mesh its chords, up to s^2 / 8 R = 8e-4 d for
+  // edges of s = 0.06 d.
   EXPECT_NEAR(height("ellipsoid:1:1:1", Evaluator::net), exact, 2e-4 * d);  // nodes without baking
   EXPECT_NEAR(height("sphere", Evaluator::grid), exact, 2e-4 * d);
   EXPECT_NEAR(height("sphere", Evaluator::mesh), exact, 8e-4 * d);

@@ -14,6 +14,7 @@
 #include "shapes/file_container.h"
 #include "shapes/hdf5_handle.h"
 #include "shapes/model_file.h"
+#include "tests/support/shape_kinds.h"
 
 namespace scree {
 namespace {
@@ -128,7 +129,7 @@ void expect_same(Shape const& a, Shape const& b) {
   EXPECT_EQ(c.made_with, d.made_with);
 }
 
-class ModelFile : public testing::Test {
+class ModelFile : public ::testing::Test {
  protected:
   ModelFile() {
     folder = fs::temp_directory_path() / ("scree_model_" + std::to_string(::getpid()));
@@ -186,6 +187,65 @@ TEST_F(ModelFile, EverythingComesBackBitForBit) {
   for (std::size_t i = 0; i < back.shape.size(); ++i) expect_same(back.shape[i], library.shape[i]);
   EXPECT_LT(fs::file_size(file), 1000000u);  // the library's budget: 20 shapes, 6x64
   for (auto const& entry : fs::directory_iterator(folder)) EXPECT_EQ(entry.path(), file);  // no temporary is left
+}
+
+std::uint32_t version_of(fs::path const& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::uint32_t version = 0;
+  in.seekg(40);  // after the magic number and the kind
+  in.read(reinterpret_cast<char*>(&version), sizeof(version));
+  return version;
+}
+
+// Programs that know networks and formulas only go on reading files that hold nothing else.
+TEST_F(ModelFile, TheVersionIsThatOfItsContent) {
+  write_model(file, coded_library(2));
+  EXPECT_EQ(version_of(file), 1u);
+  write_model(file, testing::library_of_kind("harmonics"), true);
+  EXPECT_EQ(version_of(file), 2u);
+}
+
+TEST_F(ModelFile, BrokenPartsAreNamed) {
+  struct Case {
+    char const* kind;
+    std::function<void(hid_t)> edit;
+    char const* expected;
+  };
+  auto const replace_integer = [](hid_t h, char const* group, char const* name, std::int64_t value) {
+    hdf5::Handle const g = hdf5::open_group(h, group);
+    H5Adelete(g, name);
+    hdf5::write_attribute(g, name, value);
+  };
+  Case const cases[] = {
+      {"harmonics", [](hid_t h) { H5Ldelete(h, "/harmonics/0/coefficients", H5P_DEFAULT); },
+       "/harmonics/0: dataset 'coefficients' is missing"},
+      {"mesh", [](hid_t h) { H5Ldelete(h, "/mesh/0/triangle", H5P_DEFAULT); },
+       "/mesh/0: dataset 'triangle' is missing"},
+      {"mesh",
+       [](hid_t h) {
+         hdf5::Handle const set(H5Dopen2(h, "/mesh/0/triangle", H5P_DEFAULT), H5Dclose, "open");
+         std::vector<int> const bad(60, 12);
+         H5Dwrite(set, H5T_NATIVE_INT, H5S_ALL, H5S_ALL, H5P_DEFAULT, bad.data());
+       },
+       "/mesh/0: a triangle names vertex 12"},
+      {"mesh", [&](hid_t h) { replace_integer(h, "/shape/mesh", "data", 3); }, "mesh 3 does not exist"},
+      {"grid",
+       [](hid_t h) {
+         hdf5::Handle const g = hdf5::open_group(h, "/grid/0");
+         double const points[3] = {9, 9, 9};
+         H5Adelete(g, "points");
+         hdf5::write_attribute(g, "points", points, 3);
+       },
+       "/grid/0: its values do not have the size"},
+      {"grid", [](hid_t h) { H5Ldelete(h, "/grid/0", H5P_DEFAULT); }, "grid 0 does not exist (there are 0)"},
+  };
+  for (Case const& c : cases) {
+    write_model(file, testing::library_of_kind(c.kind), true);
+    tamper(c.edit);
+    std::string const complaint = read_complaint();
+    EXPECT_NE(complaint.find(c.expected), std::string::npos) << c.expected << " | " << complaint;
+    EXPECT_EQ(complaint.rfind(file.string(), 0), 0u) << complaint;
+  }
 }
 
 TEST_F(ModelFile, EmptyLibraryIsLegal) {
