@@ -6,7 +6,6 @@
 #include <cmath>
 #include <memory>
 #include <stdexcept>
-#include <string>
 #include <utility>
 
 #include "shapes/grid_shape.h"
@@ -67,20 +66,30 @@ void unfold(PhiBatch const& phi, TriangleMesh& mesh, int rounds) {
   }
 }
 
-// Share of points clearly inside or outside whose sign the mesh gets wrong: a folded surface has no sure inside.
-double wrong_signs(PhiBatch const& phi, MeshTree const& tree, double radius, double clear) {
-  int constexpr samples = 4000;
-  std::vector<Vec3> point = quasi_uniform_directions(samples);
-  for (int i = 0; i < samples; ++i) {
-    double const u = i * 0.6180339887498949;  // the golden section spreads the depths evenly
-    point[i] *= radius * std::cbrt(u - std::floor(u));
+// True if points clearly inside or outside, two cells from the vertices, are so for the mesh too: pseudo-normals tell
+// the side on embedded surfaces only. Corners, where folds hide, are looked at from more directions.
+bool signs_hold(PhiBatch const& phi, TriangleMesh const& mesh, double cell) {
+  MeshTree const tree(mesh);
+  int constexpr few = 4, many = 100;
+  std::vector<Vec3> const direction = quasi_uniform_directions(many);
+  std::vector<Vec3> sum(mesh.vertex.size());
+  std::vector<double> area(mesh.vertex.size(), 0);
+  for (auto const& t : mesh.triangle) {
+    Vec3 const p = mesh.vertex[t[0]], n = cross(mesh.vertex[t[1]] - p, mesh.vertex[t[2]] - p);
+    for (int v : t) sum[v] += n, area[v] += norm(n);
   }
-  std::vector<double> value(samples);
+  std::vector<Vec3> point;
+  for (std::size_t v = 0; v < mesh.vertex.size(); ++v) {
+    bool const corner = norm(sum[v]) < 0.8 * area[v];
+    for (int i = 0; i < (corner ? many : few); ++i)  // the few are others at each vertex
+      point.push_back(mesh.vertex[v] + direction[corner ? i : (37 * v + 25 * i) % many] * (2 * cell));
+  }
+  std::vector<double> value(point.size());
   phi(point, value, {});
-  int wrong = 0;
-  for (int i = 0; i < samples; ++i)
-    wrong += std::abs(value[i]) > clear && (mesh_distance(tree.sdf(), point[i], nullptr) > 0) != (value[i] > 0);
-  return double(wrong) / samples;
+  for (std::size_t i = 0; i < point.size(); ++i)
+    if (std::abs(value[i]) > 0.5 * cell && (mesh_distance(tree.sdf(), point[i], nullptr) > 0) != (value[i] > 0))
+      return false;
+  return true;
 }
 
 }  // namespace
@@ -117,16 +126,19 @@ Library bake_grid(Library const& library, Shape const& source, int cells, int th
 
 Library bake_mesh(Library const& library, Shape const& source, int cells, int threads) {
   PhiBatch const phi = surface_phi(library, source, threads);
-  ZeroSetOptions const options{1.05 * source.bounding_radius, cells, surface_lipschitz(source)};
-  ZeroSet fine = refine(phi, find_zero_set(phi, options));
-  sharpen_corners(phi, fine);
-  unfold(phi, fine.mesh, 30);
+  // Whether corners can be recovered without a fold depends on how the grid meets them: finer ones are tried too.
+  int constexpr tries = 6;
   Library out;
-  out.mesh.push_back(std::make_shared<MeshTree const>(std::move(fine.mesh)));
-  double const wrong = wrong_signs(phi, *out.mesh[0], options.radius, 0.25 * fine.cell);
-  if (wrong > 0)
-    throw std::runtime_error("the mesh of its zero set folds over (" + std::to_string(100 * wrong) +
-                             " % of the points near it on the wrong side): another number of cells may help");
+  for (int more = 0; out.mesh.empty() && more < tries; ++more) {
+    ZeroSetOptions const options{1.05 * source.bounding_radius, cells + more, surface_lipschitz(source)};
+    ZeroSet fine = refine(phi, find_zero_set(phi, options));
+    sharpen_corners(phi, fine);
+    unfold(phi, fine.mesh, 30);
+    if (signs_hold(phi, fine.mesh, fine.cell))
+      out.mesh.push_back(std::make_shared<MeshTree const>(std::move(fine.mesh)));
+  }
+  if (out.mesh.empty())
+    throw std::runtime_error("the mesh of its zero set folds over: another number of cells may help");
   out.shape.push_back(source);
   set_mesh(out, 0, out.shape[0]);
   return out;

@@ -18,8 +18,9 @@ int constexpr default_mesh_cells =
 // within about cell^2 / (4 R_local) of the source's; sharp edges are rounded at the size of a cell.
 Library bake_grid(Library const& library, Shape const& source, int cells, int threads = 1);
 
-// The zero set triangulated (find_zero_set, refined once, corners and edges recovered). A source that is a mesh already
-// is triangulated anew.
+// The zero set triangulated: find_zero_set, refined once, corners and edges recovered. Where that folds the surface
+// over, which the sign of points around every vertex shows, grids of up to five cells more are tried; here and there an
+// edge is cut by up to half a cell. A source that is a mesh already is triangulated anew.
 Library bake_mesh(Library const& library, Shape const& source, int cells, int threads = 1);
 
 }  // namespace scree

@@ -96,6 +96,10 @@ TEST_F(Evaluators, CollisionsConserveMomentaAndEnergy) {
     b.insert.velocity = {-1, 0.1, 0};
     c.grains = {a, b};
     c.time.end = 0.25;
+    // Flat faces and edges let many nodes in within one step: the error falls with the step, 3.5e-3 at the automatic
+    // one and 6e-4 at a sixth of it.
+    bool const sharp = std::string(e.kind) == "box" || std::string(e.kind) == "mesh";
+    if (sharp) c.time.safety = 0.05;
     Simulation s(c, {});
     double const before = s.impl().report.kinetic_total;
     Vec3 const p0 = s.impl().state.velocity[0] + s.impl().state.velocity[1];
@@ -109,8 +113,8 @@ TEST_F(Evaluators, CollisionsConserveMomentaAndEnergy) {
     EXPECT_EQ(s.largest_overlap(), 0) << what;
     EXPECT_GT(overlap, 1e-3) << what;
     EXPECT_LT(norm(s.impl().state.velocity[0] + s.impl().state.velocity[1] - p0), 1e-10) << what;
-    // collision_test.cpp asks 1e-4 of ellipsoids and 3e-4 of networks; flat faces let many nodes in within one step.
-    EXPECT_LT(lost, std::string(e.kind) == "box" || std::string(e.kind) == "mesh" ? 1e-3 : 3e-4) << what;
+    // collision_test.cpp asks 1e-4 of ellipsoids and 3e-4 of networks.
+    EXPECT_LT(lost, sharp ? 1e-3 : 3e-4) << what;
     printf("%-14s evaluator %d: kinetic energy to %.1e, overlap %.3f d\n", e.kind, static_cast<int>(e.evaluator), lost,
            overlap);
   }

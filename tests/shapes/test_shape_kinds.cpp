@@ -231,6 +231,24 @@ TEST(MeshShape, RefusesWhatBoundsNoSolidWithTheRepair) {
   EXPECT_TRUE(library.mesh.empty() && library.shape.empty());
 }
 
+// At this size recovering the corners of a cube folds one of them, and points beyond it were inside.
+TEST(BakeMesh, PointsBeyondACornerAreOutside) {
+  Library cube;
+  cube.shape = {builtin_shape("box:1:1:1")};
+  Library const mesh = bake_mesh(cube, cube.shape[0], 16);
+  Vec3 const half = cube.shape[0].analytic.half_size;
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> u(-0.15, 0.15);
+  for (int corner = 0; corner < 8; ++corner)
+    for (int i = 0; i < 1000; ++i) {
+      Vec3 const x = multiply(half, {corner & 1 ? 1.0 : -1, corner & 2 ? 1.0 : -1, corner & 4 ? 1.0 : -1}) +
+                     Vec3{u(random), u(random), u(random)};
+      double const truth = evaluate_reference(cube, cube.shape[0], x);
+      EXPECT_NEAR(evaluate_reference(mesh, mesh.shape[0], x), truth,
+                  0.03);  // less than half a cell: an edge may be cut
+    }
+}
+
 TEST(HarmonicShape, OfASphereIsTheSphere) {
   Library library;
   add_harmonic_shape(library, "ball", {7.3});  // any radius: it is normalised
