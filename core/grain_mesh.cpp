@@ -7,13 +7,13 @@
 #include <cmath>
 #include <map>
 
+#include "shapes/star_radii.h"
 #include "shapes/zero_set.h"
 
 namespace scree {
 namespace {
 
-int constexpr samples_per_ray = 64;  // finer folds than 1/64 of the radius are not seen
-int constexpr marched_cells = 14;    // about 3,000 triangles
+int constexpr marched_cells = 14;  // about 3,000 triangles
 
 // Corners and faces of the icosahedron inscribed in the unit sphere.
 TriangleMesh icosahedron() {
@@ -56,44 +56,13 @@ TriangleMesh geodesic_sphere(int n) {
   return out;
 }
 
-// Distance along each direction to the only surface crossing; empty when some ray has none or several.
-std::vector<double> ray_distances(PhiBatch const& phi, std::vector<Vec3> const& direction, double reach) {
-  std::size_t const n = direction.size();
-  std::vector<Vec3> point(n * samples_per_ray);
-  std::vector<double> value(point.size());
-  for (std::size_t i = 0; i < n; ++i)
-    for (int s = 0; s < samples_per_ray; ++s)
-      point[i * samples_per_ray + s] = direction[i] * (reach * (s + 0.5) / samples_per_ray);
-  phi(point, value, {});
-  std::vector<double> low(n), high(n), at(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    double const* const v = &value[i * samples_per_ray];
-    int inside = 0;
-    while (inside < samples_per_ray && v[inside] > 0) ++inside;
-    bool const once = inside > 0 && inside < samples_per_ray &&
-                      std::all_of(v + inside, v + samples_per_ray, [](double x) { return x <= 0; });
-    if (!once) return {};
-    low[i] = reach * (inside - 0.5) / samples_per_ray;
-    high[i] = reach * (inside + 0.5) / samples_per_ray;
-  }
-  point.resize(n);
-  value.resize(n);
-  // 20 halvings of 1/64 of the radius leave 1e-8 d, below what float coordinates of the files hold.
-  for (int halving = 0; halving < 20; ++halving) {
-    for (std::size_t i = 0; i < n; ++i) point[i] = direction[i] * (at[i] = (low[i] + high[i]) / 2);
-    phi(point, value, {});
-    for (std::size_t i = 0; i < n; ++i) (value[i] > 0 ? low : high)[i] = at[i];
-  }
-  return at;
-}
-
 }  // namespace
 
 TriangleMesh light_mesh(Library const& library, Shape const& shape, int triangles) {
   PhiBatch const phi = surface_phi(library, shape);
   double const reach = 1.1 * shape.bounding_radius;  // beyond it a network may grow spurious solid
   TriangleMesh mesh = geodesic_sphere(std::max(1, static_cast<int>(std::sqrt(triangles / 20.0))));
-  std::vector<double> const distance = ray_distances(phi, mesh.vertex, reach);
+  std::vector<double> const distance = star_radii(phi, mesh.vertex, reach);
   if (distance.empty())
     return find_zero_set(phi, {.radius = reach, .cells = marched_cells, .lipschitz = surface_lipschitz(shape)}).mesh;
   for (std::size_t i = 0; i < distance.size(); ++i) mesh.vertex[i] *= distance[i];

@@ -17,6 +17,8 @@ int main(int argc, char** argv) {
   std::function<int()> chosen;
   add_import(app, chosen);
   add_inspect(app, chosen);
+  add_points(app, chosen);
+  add_reconstruct(app, chosen);
   try {
     app.parse(argc, argv);
   } catch (CLI::ParseError const& error) {

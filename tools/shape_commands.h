@@ -11,5 +11,7 @@ namespace scree {
 // code; its arguments live as long as `chosen`.
 void add_import(CLI::App& app, std::function<int()>& chosen);
 void add_inspect(CLI::App& app, std::function<int()>& chosen);
+void add_points(CLI::App& app, std::function<int()>& chosen);
+void add_reconstruct(CLI::App& app, std::function<int()>& chosen);
 
 }  // namespace scree
