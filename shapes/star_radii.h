@@ -1,5 +1,6 @@
 // star_radii.h: how far the surface is from the origin along given directions, for bodies whose every ray meets it
-// once. SPDX-License-Identifier: Apache-2.0
+// once.
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <vector>

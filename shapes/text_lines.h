@@ -1,5 +1,6 @@
 // text_lines.h: geometry files as text: whole-file reading, lines cut into words, numbers, complaints with file and
-// line. SPDX-License-Identifier: Apache-2.0
+// line.
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <algorithm>

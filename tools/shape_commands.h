@@ -1,5 +1,6 @@
 // shape_commands.h: the commands of `scree-shape`. Each lives in shape_<command>.cpp with its arguments, its options
-// and the function that adds them to the command line. SPDX-License-Identifier: Apache-2.0
+// and the function that adds them to the command line.
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -46,12 +46,12 @@ std::vector<Vec3> points_of(ShapeSource const& source, int count, SampleSpread s
 // One ball rolls over all of the surface, so the points are even over its area.
 TriangleMesh by_alpha(ShapeSource const& source, ReconstructArguments const& a) {
   AlphaShape const shape = alpha_shape(points_of(source, a.points, SampleSpread::area), a.alpha);
-  fmt::print("  alpha {:.4g} {}^2 (ball of radius {:.4g} {}); one solid with all points from {:.4g} {}^2 on\n",
+  fmt::print("  alpha {:.6g} {}^2 (ball of radius {:.4g} {}); one solid with all points from {:.6g} {}^2 on\n",
              shape.alpha, source.unit, std::sqrt(shape.alpha), source.unit, shape.smallest, source.unit);
   std::vector<std::string> const defects = check_mesh(shape.mesh, false).defects;
   if (shape.parts != 1 || shape.points_outside > 0 || !defects.empty())
     throw std::invalid_argument(
-        fmt::format("{}: --alpha {:g} leaves {} parts and {} points outside{}{}; it takes {:.4g} or more", source.title,
+        fmt::format("{}: --alpha {:g} leaves {} parts and {} points outside{}{}; it takes {:.6g} or more", source.title,
                     a.alpha, shape.parts, shape.points_outside, defects.empty() ? "" : "; ",
                     defects.empty() ? "" : defects.front(), shape.smallest));
   return shape.mesh;

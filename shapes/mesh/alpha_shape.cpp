@@ -143,6 +143,12 @@ int smallest_solid(Complex const& complex, std::size_t points) {
   return high;
 }
 
+// To six digits: CGAL's last ones follow memory addresses, and the user may type it.
+double round_up(double alpha) {
+  double const unit = std::pow(10, std::floor(std::log10(alpha)) - 5);
+  return std::ceil(alpha / unit) * unit;
+}
+
 }  // namespace
 
 AlphaShape alpha_shape(std::vector<Vec3> const& point, double alpha) {
@@ -159,7 +165,7 @@ AlphaShape alpha_shape(std::vector<Vec3> const& point, double alpha) {
   for (auto c = complex.all_cells_begin(); c != complex.all_cells_end(); ++c) c->info() = cells++;
 
   AlphaShape result;
-  result.smallest = complex.get_nth_alpha(smallest_solid(complex, point.size()));
+  result.smallest = round_up(complex.get_nth_alpha(smallest_solid(complex, point.size())));
   double const last = complex.get_nth_alpha(static_cast<int>(complex.number_of_alphas()));
   result.alpha = alpha > 0 ? alpha : result.smallest;
   for (;; result.alpha = std::min(result.alpha * growth, last)) {

@@ -1,5 +1,6 @@
 // test_projection.cpp: surface projection against closed forms, on warped phi, on shipped grains, and where it must
-// fail. SPDX-License-Identifier: Apache-2.0
+// fail.
+// SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
 #include <cmath>

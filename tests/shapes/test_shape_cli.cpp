@@ -1,5 +1,6 @@
 // test_shape_cli.cpp: scree-shape reconstruct and points as a user meets them: the triangle mesh, phi, points; wrong
-// input. SPDX-License-Identifier: Apache-2.0
+// input.
+// SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>

@@ -1,5 +1,6 @@
 // test_surface_samples.cpp: points even over a mesh or over phi = 0, star-shaped radii, and fits by spherical
-// harmonics. SPDX-License-Identifier: Apache-2.0
+// harmonics.
+// SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
 #include <algorithm>
