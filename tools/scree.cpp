@@ -97,11 +97,25 @@ void add_render(CLI::App& app, RenderArguments& a, std::function<int()>& chosen)
 }
 
 void add_export(CLI::App& app, ExportArguments& a, std::function<int()>& chosen) {
-  CLI::App* const c = app.add_subcommand("export", "Write a results file for ParaView (PVD + VTP)");
+  CLI::App* const c =
+      app.add_subcommand("export", "Write a results file for ParaView (PVD + VTP), or a frame's grains as meshes");
   c->add_option("results", a.results, "results.h5")->required();
-  c->add_option("-o,--output", a.folder, "Folder to write (default: paraview beside the results)");
+  c->add_option("-o,--output", a.folder, "Folder to write (default: paraview beside the results); with --stl a file");
+  CLI::Option* const stl =
+      c->add_flag("--stl", a.surfaces, "Write the grains of one frame as a mesh in world coordinates");
+  c->add_option("--format", a.format, "Of the meshes")
+      ->needs(stl)
+      ->check(CLI::IsMember({"stl", "ply", "obj"}))
+      ->capture_default_str();
+  c->add_flag("--per-grain", a.per_grain, "One mesh file a grain, in the folder --output")->needs(stl);
+  c->add_option("--frame", a.frame, "Frame, negative from the end")->needs(stl)->capture_default_str();
+  c->add_option("--triangles", a.triangles, "A grain")
+      ->needs(stl)
+      ->check(CLI::Range(20, 1000000))
+      ->capture_default_str();
+  c->add_flag("--force", a.force, "Replace existing meshes")->needs(stl);
   c->add_flag("--recover", a.recover, "Read the unfinished file of a run that was killed");
-  c->callback([&] { chosen = [&] { return export_command(a); }; });
+  c->callback([&] { chosen = [&] { return a.surfaces ? export_surfaces(a) : export_command(a); }; });
 }
 
 int complain(ExitCode code, std::string const& what) {

@@ -58,6 +58,12 @@ struct InfoArguments {
 struct ExportArguments {
   std::filesystem::path results, folder;  // folder empty: "paraview" beside the results
   bool recover = false;
+  bool surfaces = false;       // mesh files instead of ParaView's; `folder` is then a file, or a folder with per_grain
+  bool per_grain = false;      // one file a grain
+  bool force = false;          // replace existing mesh files
+  std::string format = "stl";  // stl, ply, obj
+  int frame = -1;
+  int triangles = 1280;  // a grain
 };
 
 int run_command(RunArguments const& arguments);
@@ -66,6 +72,7 @@ int check_command(CaseArguments const& arguments);
 int info_command(InfoArguments const& arguments);
 int render_command(RenderArguments const& arguments);
 int export_command(ExportArguments const& arguments);
+int export_surfaces(ExportArguments const& arguments);  // where arguments.surfaces is set
 
 // Threads to use, and the device check every command that computes goes through: `cuda` in a build without it throws
 // DeviceError; `auto` falls back to the CPU. `note` says what was chosen and why.

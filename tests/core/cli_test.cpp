@@ -19,6 +19,7 @@
 #include "core/results.h"
 #include "shapes/analytic_shapes.h"
 #include "shapes/file_container.h"
+#include "shapes/mesh_files.h"
 #include "shapes/model_file.h"
 
 namespace {
@@ -341,6 +342,32 @@ TEST_F(Program, RenderDrawsAFrameAndRefusesNonsense) {
   EXPECT_EQ(scree("render absent.h5 -o x.png").code, 2);
   EXPECT_EQ(scree("render small.out/results.h5 -o /proc/x.png --size 64x48").code, 4);
   EXPECT_FALSE(fs::exists(folder_ / "x.png"));
+}
+
+TEST_F(Program, ExportsTheGrainsOfAFrameAsMeshes) {
+  write("small.toml", small_case);
+  ASSERT_EQ(scree("run small.toml").code, 0);
+  Outcome const whole = scree("export small.out/results.h5 --stl --frame 0");
+  ASSERT_EQ(whole.code, 0) << whole.text;
+  MeshMass const mass = mesh_mass(read_mesh(folder_ / "small.out/grains.stl"));
+  EXPECT_NEAR(mass.volume, M_PI / 6 * 1e-3, 0.02 * M_PI / 6 * 1e-3);  // 1,280 chords of a sphere
+  EXPECT_NEAR(norm(mass.centroid - Vec3{0, 0, 0.051}), 0, 1e-7);      // float coordinates
+  Outcome const each = scree("export small.out/results.h5 --stl --per-grain --format ply -o each");
+  ASSERT_EQ(each.code, 0) << each.text;
+  EXPECT_EQ(read_mesh(folder_ / "each/grain_000000.ply").triangle.size(), 1280u);
+  std::string const before = read_file(folder_ / "small.out/grains.stl");
+  Outcome const again = scree("export small.out/results.h5 --stl");
+  EXPECT_EQ(again.code, 2);
+  EXPECT_NE(again.text.find("--force"), std::string::npos) << again.text;
+  EXPECT_EQ(read_file(folder_ / "small.out/grains.stl"), before);
+  EXPECT_EQ(scree("export small.out/results.h5 --stl --force").code, 0);
+  EXPECT_EQ(scree("export small.out/results.h5 --stl --frame 99 -o x.stl").code, 2);
+  EXPECT_EQ(scree("export small.out/results.h5 --stl --format step -o x.stl").code, 2);
+  EXPECT_EQ(scree("export small.out/results.h5 --stl -o x.ply").code, 2);
+  EXPECT_EQ(scree("export small.out/results.h5 --per-grain").code, 2);
+  EXPECT_EQ(scree("export absent.h5 --stl").code, 2);
+  EXPECT_EQ(scree("export small.out/results.h5 --stl -o nowhere/x.stl").code, 4);
+  EXPECT_FALSE(fs::exists(folder_ / "x.stl"));
 }
 
 TEST_F(Program, InfoReadsModelsAndRefusesOtherFiles) {

@@ -1,0 +1,19 @@
+// surface_export.h: the grains of one frame as triangle meshes in world coordinates, for other programs.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "core/results.h"
+#include "shapes/triangle_mesh.h"
+
+namespace scree {
+
+// The mesh of every body, in the order of the bodies [m]: light_mesh of its shape with at most `triangles` faces (more
+// for bodies that are not star-shaped), scaled, turned and moved. Throws as light_mesh does.
+std::vector<TriangleMesh> grain_meshes(ResultsHeader const& header, Frame const& frame, int triangles);
+
+// All of them in one; touching grains keep their own vertices.
+TriangleMesh joined(std::vector<TriangleMesh> const& meshes);
+
+}  // namespace scree

@@ -1,0 +1,69 @@
+// scree_surfaces.cpp: `scree export --stl`: the grains of one frame as mesh files in world coordinates.
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <filesystem>
+#include <system_error>
+#include <vector>
+
+#include "core/case.h"
+#include "core/results.h"
+#include "core/surface_export.h"
+#include "shapes/mesh_files.h"
+#include "tools/scree_commands.h"
+
+namespace scree {
+namespace {
+
+namespace fs = std::filesystem;
+
+void check_free(fs::path const& file, bool force) {
+  if (fs::exists(file) && !force) throw InputError({file.string() + " exists; choose another --output or add --force"});
+}
+
+// What cannot be written is the file's fault, not the results'.
+void write(fs::path const& file, TriangleMesh const& mesh) {
+  errno = 0;
+  try {
+    write_mesh(file, mesh);
+  } catch (std::runtime_error const& error) {
+    throw std::system_error(errno ? errno : EIO, std::generic_category(), error.what());
+  }
+}
+
+}  // namespace
+
+int export_surfaces(ExportArguments const& a) {
+  ResultsReader const reader(a.results, a.recover);
+  Frame const frame = reader.frame(a.frame);
+  fs::path const beside = a.results.parent_path();
+  fs::path const target = !a.folder.empty() ? a.folder : beside / (a.per_grain ? "grains" : "grains." + a.format);
+  std::vector<fs::path> file;
+  if (a.per_grain) {
+    for (std::size_t i = 0; i < reader.header().shape.size(); ++i)
+      file.push_back(target / fmt::format("grain_{:06}.{}", i, a.format));
+  } else {
+    file.push_back(target);
+    if (target.extension() != "." + a.format)
+      throw InputError(
+          {fmt::format("{}: --output must end in .{}, or name another --format", target.string(), a.format)});
+  }
+  for (fs::path const& f : file) check_free(f, a.force);
+  std::vector<TriangleMesh> meshes = grain_meshes(reader.header(), frame, a.triangles);
+  std::size_t const grains = meshes.size();
+  if (a.per_grain)
+    fs::create_directories(target);
+  else
+    meshes = {joined(meshes)};
+  std::size_t triangles = 0;
+  for (std::size_t i = 0; i < file.size(); ++i) {
+    write(file[i], meshes[i]);
+    triangles += meshes[i].triangle.size();
+  }
+  fmt::print("surfaces  {}: t = {:.4g} s, {} grains, {} triangles, world coordinates [m]\n", target.string(),
+             frame.time, grains, triangles);
+  return exit_ok;
+}
+
+}  // namespace scree
