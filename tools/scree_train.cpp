@@ -14,6 +14,8 @@ int main(int argc, char** argv) {
   std::function<int()> chosen;
   add_fit_command(app, chosen);
   add_coded_command(app, chosen);
+  add_study_command(app, chosen);
+  add_dataset_command(app, chosen);
   try {
     app.parse(argc, argv);
   } catch (CLI::ParseError const& error) {

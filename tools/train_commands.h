@@ -47,5 +47,7 @@ std::string file_hash(std::filesystem::path const& file);
 // Each adds its subcommand, which sets `chosen` when it is called.
 void add_fit_command(CLI::App& app, std::function<int()>& chosen);
 void add_coded_command(CLI::App& app, std::function<int()>& chosen);
+void add_study_command(CLI::App& app, std::function<int()>& chosen);
+void add_dataset_command(CLI::App& app, std::function<int()>& chosen);
 
 }  // namespace scree

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -11,6 +12,7 @@
 #include "shapes/mesh/icosphere.h"
 #include "shapes/mesh/mesh_check.h"
 #include "shapes/mesh_files.h"
+#include "shapes/mesh_report.h"
 #include "shapes/model_file.h"
 
 namespace scree {
@@ -106,6 +108,37 @@ TEST_F(TrainingPrograms, ImportRepairsAndRefuses) {
   EXPECT_FALSE(fs::exists(folder_ / "half_clean.stl"));
   EXPECT_EQ(run(SCREE_SHAPE, "import open.stl -o clean.stl"), 2);
   EXPECT_TRUE(says("--force")) << said_;
+}
+
+TEST_F(TrainingPrograms, StudyWritesItsTableAndPicture) {
+  ASSERT_EQ(run(SCREE_TRAIN, "study coded-convergence --quick -o out"), 0) << said_;
+  std::istringstream csv(contents(folder_ / "out/coded-convergence.csv"));
+  std::string line;
+  std::getline(csv, line);
+  EXPECT_EQ(line, "recipe,shape,epoch,step,train_mae,test_mae,kept");
+  int kept = 0, rows = 0;
+  for (; std::getline(csv, line); ++rows) kept += line.ends_with(",1");
+  EXPECT_EQ(kept, 8);  // two recipes, four shapes
+  EXPECT_GT(rows, kept);
+  bool const matplotlib = std::system("/usr/bin/python3 -c 'import matplotlib' 2>/dev/null") == 0;
+  EXPECT_EQ(fs::exists(folder_ / "out/coded-convergence.png"), matplotlib);
+  EXPECT_EQ(says("python3-matplotlib"), !matplotlib) << said_;
+}
+
+TEST_F(TrainingPrograms, StudiesAndDataSetsAreNamed) {
+  EXPECT_EQ(run(SCREE_TRAIN, "study --list"), 0) << said_;
+  for (char const* name : {"superellipsoids", "Fig. 11", "memory", "Table 1"}) EXPECT_TRUE(says(name)) << said_;
+  EXPECT_EQ(run(SCREE_TRAIN, "study nothing -o out"), 2);
+  EXPECT_TRUE(says("query-time")) << said_;
+  EXPECT_EQ(run(SCREE_TRAIN, "study"), 2);
+  EXPECT_EQ(run(SCREE_TRAIN, "study coded-grains --quick --library closed.stl -o made"), 2);
+  EXPECT_EQ(run(SCREE_TRAIN, "dataset nothing -o out"), 2);
+  EXPECT_EQ(run(SCREE_TRAIN, "dataset grains20 -o closed.stl"), 2);
+  EXPECT_FALSE(fs::exists(folder_ / "out"));
+  ASSERT_EQ(run(SCREE_TRAIN, "dataset grains20 -o grains"), 0) << said_;
+  EXPECT_TRUE(report_mesh(read_mesh(folder_ / "grains/sand-4.stl")).defects.empty());
+  std::string const table = contents(folder_ / "grains/grains20.csv");
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 21);
 }
 
 }  // namespace
