@@ -32,10 +32,10 @@ void study_coded_grains(StudyOptions const& options) {
     csv.row(recipe, body.name, e.mae, e.p99, e.max, e.band_mae);
   };
   int const shapes = static_cast<int>(bodies.size());
+  Library const ours = grain_library(options);
   Recipe const paper = coded_recipes(options, shapes, Effort::full).front();
   TrainedNet const theirs = train_announced("paper 20 grains", bodies, paper.train);
   for (int i = 0; i < shapes; ++i) add("paper", bodies[i], trained_phi(theirs, i, options.threads));
-  Library const ours = grain_library(options);
   for (int i = 0; i < shapes; ++i) add("ours", bodies[i], fast_phi(ours, ours.shape[i], options.threads));
 }
 
