@@ -1,5 +1,5 @@
-// scree_shape.cpp: the shape program: check and repair meshes, inspect model files. Commands: shape_commands.h.
-// Links CGAL; distributed binaries are under GPL-3 because of it.
+// scree_shape.cpp: the shape program: check and repair meshes, inspect model files, make new shapes.
+// Links CGAL; distributed binaries are under GPL-3 because of it. Commands: shape_commands.h.
 // SPDX-License-Identifier: Apache-2.0
 #include <CLI/CLI.hpp>
 #include <functional>
@@ -9,7 +9,7 @@
 
 int main(int argc, char** argv) {
   using namespace scree;
-  CLI::App app{"Check and repair meshes, inspect model files"};
+  CLI::App app{"Check and repair meshes, inspect model files, make new shapes"};
   app.set_version_flag("--version",
                        "scree-shape " SCREE_VERSION
                        "\nScree is Apache-2.0; this program contains CGAL and is distributed under GPL-3.");
@@ -19,6 +19,8 @@ int main(int argc, char** argv) {
   add_inspect(app, chosen);
   add_points(app, chosen);
   add_reconstruct(app, chosen);
+  add_interpolate(app, chosen);
+  add_sample(app, chosen);
   try {
     app.parse(argc, argv);
   } catch (CLI::ParseError const& error) {

@@ -14,5 +14,7 @@ void add_import(CLI::App& app, std::function<int()>& chosen);
 void add_inspect(CLI::App& app, std::function<int()>& chosen);
 void add_points(CLI::App& app, std::function<int()>& chosen);
 void add_reconstruct(CLI::App& app, std::function<int()>& chosen);
+void add_interpolate(CLI::App& app, std::function<int()>& chosen);
+void add_sample(CLI::App& app, std::function<int()>& chosen);
 
 }  // namespace scree
