@@ -72,6 +72,9 @@ def draw_mesh(axes, folder, name, colour="#b8a88a", half=0.85):
     order = np.argsort(corners.mean(axis=1) @ towards)
     light = 0.35 + 0.65 * np.clip(normal @ (towards + 0.5 * up - 0.4 * right) / 1.19, 0, 1)
     flat = np.stack([corners @ right, corners @ up], axis=2)[order]
+    half = max(half, 1.05 * np.abs(flat).max())  # long bodies are drawn smaller
+    axes.set_xlim(-half, half)
+    axes.set_ylim(-half, half)
     shade = np.clip(light[order, None] * np.array(matplotlib.colors.to_rgb(colour)), 0, 1)
     axes.add_collection(PolyCollection(flat, facecolors=shade, edgecolors=shade, linewidths=0.3, rasterized=True))
 
@@ -316,7 +319,8 @@ def bars(folder, study):
     axes.invert_yaxis()
     axes.set_xscale("log")
     axes.set_xlabel(label)
-    axes.legend(fontsize=8)
+    axes.margins(x=0.15)
+    axes.legend(fontsize=8, ncols=2, loc="lower right", bbox_to_anchor=(1, 1))
     axes.grid(alpha=0.3, axis="x")
     return figure
 
@@ -330,7 +334,7 @@ DRAW = {"templates": templates, "convergence": convergence, "superellipsoids": s
 def main():
     study, folder = sys.argv[1:]
     figure = DRAW[study](folder, study)
-    figure.savefig(os.path.join(folder, study + ".png"), dpi=110)
+    figure.savefig(os.path.join(folder, study + ".png"), dpi=80)
     figure.savefig(os.path.join(folder, study + ".svg"))
     plt.close(figure)
 

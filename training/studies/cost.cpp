@@ -8,11 +8,14 @@
 #include <ctime>
 #include <functional>
 #include <memory>
+#include <stdexcept>
 
 #include "kernels/sdf/grid.h"
 #include "kernels/sdf/sdf_batch.h"
+#include "shapes/compact_grain.h"
 #include "shapes/mesh/mesh_distance.h"
 #include "shapes/mesh_tree.h"
+#include "shapes/model_file.h"
 #include "shapes/random.h"
 #include "training/studies/csv_file.h"
 #include "training/studies/recipes.h"
@@ -128,7 +131,7 @@ void study_query_time(StudyOptions const& options) {
 }
 
 // Bytes that the allocator hands out for many copies, over their number: what a particle costs that keeps its own
-// shape, as in the paper.
+// shape, as in the paper, and with a library what it costs in a shared decoder.
 void study_memory(StudyOptions const& options) {
   Body const body = representative_grains()[1];
   CsvFile csv(options.folder / "memory.csv", {"method", "detail", "kilobytes", "paper"});
@@ -150,10 +153,31 @@ void study_memory(StudyOptions const& options) {
             [&] { return std::make_shared<SdfGrid>(grid); });
   }
   Networks const nets(body);
-  measure("SingleNetSDF", net_detail(nets.single), paper_single,
+  measure("SingleNetSDF, weights", net_detail(nets.single), paper_single,
+          [&] { return std::make_shared<Mlp>(nets.single); });
+  measure("SingleNetSDF, evaluator", net_detail(nets.single), paper_single,
           [&] { return std::make_shared<PackedMlp>(nets.single); });
-  measure("CodedNetSDF, own network", net_detail(nets.coded), paper_coded,
+  measure("CodedNetSDF, own weights", net_detail(nets.coded), paper_coded,
+          [&] { return std::make_shared<Mlp>(nets.coded); });
+  measure("CodedNetSDF, own evaluator", net_detail(nets.coded), paper_coded,
           [&] { return std::make_shared<PackedMlp>(nets.coded); });
+  if (options.library.empty()) return;
+  // What a grain adds to a decoder that all share: its nodes, culling data, frame and folded first layer.
+  struct SharedGrain {
+    CompactGrain grain;
+    std::vector<float> first_bias;
+  };
+  Library const library = read_model(options.library);
+  int constexpr nodes = 1000;
+  CompactGrainMaker const maker(library, 0, nodes);
+  SharedGrain shared;
+  std::vector<float> const code = library.shape.at(0).code;
+  if (maker.make(code, shared.grain) != GrainFault::none)
+    throw std::invalid_argument(options.library.string() + ": its first shape makes no compact grain");
+  shared.first_bias = fold_code(library.net[0], code);
+  // A copy has no spare capacity.
+  measure("CodedNetSDF, shared network", fmt::format("{} nodes", nodes), paper_coded,
+          [&] { return std::make_shared<SharedGrain>(shared); });
 }
 
 }  // namespace scree
