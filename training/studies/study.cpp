@@ -16,6 +16,8 @@ std::vector<Study> const& studies() {
       {"extremes", "Fig. 14", "sphere and strip, CodedNetSDF", study_extremes},
       {"coded-scatter", "Fig. 15", "predicted against true distance, CodedNetSDF", study_coded_scatter},
       {"coded-grains", "Fig. 16", "errors of 20 grains in one CodedNetSDF", study_coded_grains},
+      {"interpolation", "Figs. 17, 18", "shapes between two codes", study_interpolation},
+      {"latent", "Fig. 19", "codes in two dimensions, and sampled shapes", study_latent},
       {"samples", "Fig. 20", "error by samples a shape", study_samples},
       {"layers", "Fig. 21", "error by hidden layers", study_layers},
       {"nodes", "Fig. 22", "error by neurons a layer", study_nodes},

@@ -37,6 +37,8 @@ void study_coded_convergence(StudyOptions const& options);
 void study_extremes(StudyOptions const& options);
 void study_coded_scatter(StudyOptions const& options);
 void study_coded_grains(StudyOptions const& options);
+void study_interpolation(StudyOptions const& options);
+void study_latent(StudyOptions const& options);
 void study_samples(StudyOptions const& options);
 void study_layers(StudyOptions const& options);
 void study_nodes(StudyOptions const& options);
