@@ -10,6 +10,7 @@
 
 #include "core/case_check.h"
 #include "core/case_reader.h"
+#include "core/certificate_gate.h"
 
 namespace scree {
 namespace {
@@ -186,6 +187,7 @@ void read_limits(CaseReader r, LimitsCase& out) {
     }
   }
   r.number("ledger", out.ledger);
+  for (CertificateLimit const& l : certificate_limits()) r.number(l.name, out.*l.limit);
   r.finish();
 }
 

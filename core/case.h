@@ -117,6 +117,15 @@ struct LimitsCase {
   double overlap = 0.05;  // the watch stops the run above this [d]
   double gradient_low = 0.5, gradient_high = 2.0;
   double ledger = 1e-3;  // of the energy moved
+  // Of a network's certificate (core/certificate_gate.h), the largest allowed:
+  double components = 1;    // pieces of the surface
+  double handles = 0;       // holes through the body
+  double falling = 0.05;    // share of the interior in which phi falls inwards
+  double gap = 0.005;       // blind gap of its surface nodes [d]
+  double mae = 0.01;        // mean error of phi [d]
+  double hausdorff = 0.05;  // [d]
+  double volume = 0.01;     // relative error
+  double inertia = 0.03;    // relative error
 };
 
 struct Case {

@@ -11,6 +11,7 @@
 #include <limits>
 #include <set>
 
+#include "core/certificate_gate.h"
 #include "core/nearest_name.h"
 #include "shapes/analytic_shapes.h"
 
@@ -271,6 +272,9 @@ void Checker::rest() {
     fail("limits.gradient", fmt::format("[{}, {}] must enclose 1 and be > 0: |grad phi| of a true distance is 1",
                                         l.gradient_low, l.gradient_high));
   positive("limits.ledger", l.ledger, "a share of the energy moved");
+  for (CertificateLimit const& limit : certificate_limits())
+    if (double const value = l.*limit.limit; !(std::isfinite(value) && value >= 0))
+      fail(std::string("limits.") + limit.name, fmt::format("{} must be >= 0: {}", value, limit.meaning));
 }
 
 std::vector<CaseProblem> Checker::run() {

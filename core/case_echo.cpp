@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include "core/case.h"
+#include "core/certificate_gate.h"
 
 namespace scree {
 namespace {
@@ -130,6 +131,8 @@ std::string to_toml(Case const& c) {
     out += fmt::format("\n[checkpoint]\nevery = {}  # [s]\nkeep = {}\n", c.checkpoint->every, c.checkpoint->keep);
   out += fmt::format("\n[limits]\noverlap = {}  # [d]\ngradient = [{}, {}]\nledger = {}\n", c.limits.overlap,
                      c.limits.gradient_low, c.limits.gradient_high, c.limits.ledger);
+  for (CertificateLimit const& l : certificate_limits())
+    out += fmt::format("{} = {}  # {}\n", l.name, c.limits.*l.limit, l.meaning);
   return out;
 }
 

@@ -9,6 +9,7 @@
 #include <map>
 #include <utility>
 
+#include "core/certificate_gate.h"
 #include "core/nearest_name.h"
 #include "core/scene_evaluators.h"
 #include "shapes/analytic_shapes.h"
@@ -17,25 +18,6 @@
 #include "shapes/model_file.h"
 
 namespace scree {
-
-namespace {
-
-// The gate: a network whose gradient strays has the wrong contact stiffness.
-void check_gradient(Shape const& shape, LimitsCase const& limits, std::vector<std::string>& found) {
-  if (!shape.is_net()) return;
-  double const low = shape.certificate.gradient_p1, high = shape.certificate.gradient_p99;
-  if (low < 0 || high < 0)
-    found.push_back("shape '" + shape.name +
-                    "' has no certificate: its gradient was never measured. Train it again with "
-                    "scree-train, which measures it");
-  else if (low < limits.gradient_low || high > limits.gradient_high)
-    found.push_back(
-        fmt::format("shape '{}': |grad phi| of its certificate runs from {:.3g} to {:.3g} (1st and 99th "
-                    "percentile), limits.gradient allows [{:.3g}, {:.3g}]",
-                    shape.name, low, high, limits.gradient_low, limits.gradient_high));
-}
-
-}  // namespace
 
 ShapeCatalogue::ShapeCatalogue(Case const& c, std::vector<std::string>& found) : names_(c.library), limits_(c.limits) {
   for (LibraryCase const& entry : names_) {
@@ -135,7 +117,7 @@ std::vector<int> ShapeCatalogue::templates_for(GrainsCase const& grains, Scene& 
     for (std::size_t s = 0; s < from.shape.size(); ++s) {
       known.push_back(from.shape[s].name);
       if (fnmatch(pattern.c_str(), from.shape[s].name.c_str(), 0) != 0) continue;
-      check_gradient(from.shape[s], limits_, found);
+      for (std::string& problem : gate_problems(from.shape[s], entry->file, limits_)) found.push_back(problem);
       Key key{index, static_cast<int>(s), grains.nodes};
       choose_evaluator(grains, from.shape[s].name, key, found);
       chosen.push_back(add(key, scene));

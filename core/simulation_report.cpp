@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/certificate_gate.h"
 #include "core/simulation_impl.h"
 
 namespace scree {
@@ -65,6 +66,7 @@ Plan Simulation::plan() const {
   for (ShapeRecord const& shape : s.scene.shape) plan.nodes_max = std::max(plan.nodes_max, shape.nodes);
   plan.step = s.state.time_step;
   plan.steps = static_cast<std::int64_t>(std::ceil(s.c.time.end / s.state.time_step));
+  plan.notes = limits_set(s.c.limits);
   if (plan.bodies == 0) plan.notes.push_back("the case has no grains");
   if (std::isfinite(s.estimate.critical)) {
     plan.notes.push_back(fmt::format(

@@ -121,6 +121,8 @@ Candidate judge_code(Library const& library, CodeFrame const& frame, std::vector
     SolidCheck const solid = check_solid(phi, set, shape.bounding_radius, check_points);
     Certificate& certificate = shape.certificate;
     certificate.components = set.components;
+    certificate.euler = set.euler_characteristic;
+    certificate.falling = solid.falling;
     certificate.gradient_p1 = solid.gradient_p1, certificate.gradient_p5 = solid.gradient_p5;
     certificate.gradient_p95 = solid.gradient_p95, certificate.gradient_p99 = solid.gradient_p99;
     c.euler = set.euler_characteristic;

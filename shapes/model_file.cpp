@@ -31,29 +31,6 @@ int version_of(Library const& library) { return has_model_parts(library) ? 2 : 1
 
 char constexpr certificate_group[] = "certificate";
 
-// One visitor names every certificate entry once, for writing and for reading.
-template <class C, class Visit>
-void for_each_entry(C& c, Visit const& visit) {
-  visit("mae", c.mae);
-  visit("p99", c.p99);
-  visit("max", c.max);
-  visit("band_mae", c.band_mae);
-  visit("normal_p50", c.normal_p50);
-  visit("normal_p95", c.normal_p95);
-  visit("gradient_p1", c.gradient_p1);
-  visit("gradient_p5", c.gradient_p5);
-  visit("gradient_p95", c.gradient_p95);
-  visit("gradient_p99", c.gradient_p99);
-  visit("volume_error", c.volume_error);
-  visit("inertia_error", c.inertia_error);
-  visit("hausdorff", c.hausdorff);
-  visit("components", c.components);
-  visit("seed", c.seed);
-  visit("source", c.source);
-  visit("source_hash", c.source_hash);
-  visit("made_with", c.made_with);
-}
-
 void write_value(hid_t at, char const* name, double value) { hdf5::write_attribute(at, name, &value, 1); }
 void write_value(hid_t at, char const* name, int value) { hdf5::write_attribute(at, name, std::int64_t{value}); }
 void write_value(hid_t at, char const* name, std::int64_t value) { hdf5::write_attribute(at, name, value); }
@@ -65,7 +42,8 @@ void read_value(hid_t at, char const* name, std::int64_t& value) { value = hdf5:
 void read_value(hid_t at, char const* name, std::string& value) { value = hdf5::read_string(at, name); }
 void read_value(hid_t at, char const* name, int& value) {
   std::int64_t const wide = hdf5::read_integer(at, name);
-  if (wide < -1 || wide > 1 << 24) throw std::runtime_error("attribute '" + std::string(name) + "' is out of range");
+  if (wide < -(1 << 24) || wide > 1 << 24)
+    throw std::runtime_error("attribute '" + std::string(name) + "' is out of range");
   value = static_cast<int>(wide);
 }
 void read_value(hid_t at, char const* name, Vec3& value) {
@@ -140,7 +118,7 @@ void write_shape(hid_t file, int index, int code_row, Shape const& s) {
   write_value(group, "box_max", s.box.max);
   write_value(group, "lipschitz", s.lipschitz);
   hdf5::Handle const certificate = hdf5::create_group(file, "/shape/" + s.name + "/" + certificate_group);
-  for_each_entry(s.certificate, [&](char const* name, auto const& value) { write_value(certificate, name, value); });
+  for_each_figure(s.certificate, [&](char const* name, auto const& value) { write_value(certificate, name, value); });
 }
 static_assert(sizeof(Mat3) == 9 * sizeof(double), "query_rotation is written as nine numbers");
 
@@ -192,7 +170,10 @@ Shape read_shape(hid_t group, std::string const& name, hdf5::FloatArray const& c
   read_value(group, "box_max", s.box.max);
   read_value(group, "lipschitz", s.lipschitz);
   hdf5::Handle const certificate = hdf5::open_group(group, certificate_group);
-  for_each_entry(s.certificate, [&](char const* entry, auto& value) { read_value(certificate, entry, value); });
+  // Files written before an entry existed stay readable: it was not measured.
+  for_each_figure(s.certificate, [&](char const* entry, auto& value) {
+    if (hdf5::has_attribute(certificate, entry)) read_value(certificate, entry, value);
+  });
   return s;
 }
 

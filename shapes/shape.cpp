@@ -48,8 +48,9 @@ bool proper_rotation(Mat3 const& m) {
 }
 
 bool finite_figures(Certificate const& c) {
-  for (double v : {c.mae, c.p99, c.max, c.band_mae, c.normal_p50, c.normal_p95, c.gradient_p1, c.gradient_p5,
-                   c.gradient_p95, c.gradient_p99, c.volume_error, c.inertia_error, c.hausdorff})
+  for (double v : {c.mae, c.p99, c.max, c.band_mae, c.band_p99, c.band_max, c.normal_p50, c.normal_p95,
+                   c.flat_normal_p95, c.flat_share, c.hausdorff, c.volume_error, c.inertia_error, c.gradient_p1,
+                   c.gradient_p5, c.gradient_p95, c.gradient_p99, c.falling, c.gap})
     if (!std::isfinite(v)) return false;
   return true;
 }

@@ -27,20 +27,62 @@ struct QueryTransform {
 };
 
 // What a shape promises and how far off it is, in units of d; measured by training and `scree-shape inspect`.
-// A negative number means: not measured.
+// A negative number (for `euler`: 1) means: not measured. Shapes without a truth, such as generated ones, have only
+// what phi itself tells (shapes/certify_phi.h); the rest comes from the source mesh (shapes/mesh/certify.h).
 struct Certificate {
-  double mae = -1, p99 = -1, max = -1;      // |phi - true distance| on the paper's shell
-  double band_mae = -1;                     // the same on |phi| <= 0.05 d
-  double normal_p50 = -1, normal_p95 = -1;  // [degrees]
-  double gradient_p1 = -1, gradient_p5 = -1, gradient_p95 = -1, gradient_p99 = -1;  // |grad phi|
-  double volume_error = -1, inertia_error = -1;                                     // relative, before normalisation
-  double hausdorff = -1;                                                            // zero set against the source
-  int components = -1;                                                              // of the zero set
-  std::int64_t seed = -1;                                                           // of the training
-  std::string source;                                                               // formula or mesh name
+  double mae = -1, p99 = -1, max = -1;                 // |phi - true distance| on the paper's shell
+  double band_mae = -1, band_p99 = -1, band_max = -1;  // the same on |phi| <= 0.05 d
+  double normal_p50 = -1, normal_p95 = -1;             // on the surface [degrees]
+  double flat_normal_p95 = -1;  // the same farther than 0.03 d from edges sharper than 30 degrees [degrees] ...
+  double flat_share = -1;       // ... which is true of this share of the surface
+  double hausdorff = -1;        // zero set against the source
+  double volume_error = -1, inertia_error = -1;  // relative, before normalisation
+  // From phi alone:
+  double gradient_p1 = -1, gradient_p5 = -1, gradient_p95 = -1, gradient_p99 = -1;  // |grad phi| on |phi| <= 0.05 d
+  double falling = -1;      // share of points deeper than 0.05 d at which phi falls away from the nearest surface
+  double gap = -1;          // largest blind gap against a plane of ...
+  int gap_nodes = -1;       // ... this many surface nodes
+  int components = -1;      // of the zero set
+  int euler = 1;            // Euler characteristic of the zero set, always even: 2 a component without handles
+  std::int64_t seed = -1;   // of the training
+  std::string source;       // formula or mesh name
   std::string source_hash;  // of the mesh file, empty for formulas
   std::string made_with;    // library versions
 };
+
+// Names every entry of a certificate (const or not) once, for files to write and to read: visit(name, member).
+template <class C, class Visit>
+void for_each_figure(C& c, Visit const& visit) {
+  visit("mae", c.mae);
+  visit("p99", c.p99);
+  visit("max", c.max);
+  visit("band_mae", c.band_mae);
+  visit("band_p99", c.band_p99);
+  visit("band_max", c.band_max);
+  visit("normal_p50", c.normal_p50);
+  visit("normal_p95", c.normal_p95);
+  visit("flat_normal_p95", c.flat_normal_p95);
+  visit("flat_share", c.flat_share);
+  visit("hausdorff", c.hausdorff);
+  visit("volume_error", c.volume_error);
+  visit("inertia_error", c.inertia_error);
+  visit("gradient_p1", c.gradient_p1);
+  visit("gradient_p5", c.gradient_p5);
+  visit("gradient_p95", c.gradient_p95);
+  visit("gradient_p99", c.gradient_p99);
+  visit("falling", c.falling);
+  visit("gap", c.gap);
+  visit("gap_nodes", c.gap_nodes);
+  visit("components", c.components);
+  visit("euler", c.euler);
+  visit("seed", c.seed);
+  visit("source", c.source);
+  visit("source_hash", c.source_hash);
+  visit("made_with", c.made_with);
+}
+
+// How far from |phi| = 0 contacts are expected; deeper overlaps stop a run by default [d].
+double constexpr contact_band = 0.05;
 
 // What defines phi.
 enum class ShapeKind {

@@ -41,9 +41,6 @@ void check_output(std::filesystem::path const& file, bool force);
 // A closed mesh, normalised. Throws std::invalid_argument naming the file and its first defect.
 TriangleMesh read_closed_mesh(std::filesystem::path const& file);
 
-// FNV-1a of the file's bytes: tells source meshes apart, protects against nothing.
-std::string file_hash(std::filesystem::path const& file);
-
 // Each adds its subcommand, which sets `chosen` when it is called.
 void add_fit_command(CLI::App& app, std::function<int()>& chosen);
 void add_coded_command(CLI::App& app, std::function<int()>& chosen);

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "shapes/analytic_shapes.h"
+#include "shapes/file_hash.h"
 #include "shapes/mesh/procedural_grains.h"
 #include "tools/train_commands.h"
 

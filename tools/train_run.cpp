@@ -16,6 +16,7 @@
 #include "shapes/mesh_files.h"
 #include "shapes/mesh_normalise.h"
 #include "shapes/model_file.h"
+#include "tools/certificate_table.h"
 #include "tools/guarded.h"
 #include "tools/train_commands.h"
 #include "training/publish.h"
@@ -43,13 +44,6 @@ TriangleMesh read_closed_mesh(std::filesystem::path const& file) {
   MeshReport const report = check_mesh(mesh, false);
   if (!report.defects.empty()) throw std::invalid_argument(file.string() + ": " + report.defects.front());
   return normalised(mesh);
-}
-
-std::string file_hash(std::filesystem::path const& file) {
-  std::uint64_t hash = 0xcbf29ce484222325ULL;
-  std::ifstream in(file, std::ios::binary);
-  for (char c; in.get(c);) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL;
-  return fmt::format("fnv1a:{:016x}", hash);
 }
 
 namespace {
@@ -86,17 +80,6 @@ class Reporter {
   double printed_ = -1e9;
 };
 
-void print_certificates(Library const& library, std::vector<PublishReport> const& reports) {
-  fmt::print("{:<14}{:>9}{:>9}{:>9}{:>9}{:>7}{:>7}{:>7}{:>7}{:>9}{:>9}{:>5}{:>9}\n", "shape", "MAE", "p99", "max",
-             "band", "n50", "n95", "g1", "g99", "volume", "hausd.", "comp", "falling");
-  for (std::size_t i = 0; i < library.shape.size(); ++i) {
-    Certificate const& c = library.shape[i].certificate;
-    fmt::print("{:<14}{:9.2e}{:9.2e}{:9.2e}{:9.2e}{:7.2f}{:7.2f}{:7.3f}{:7.3f}{:9.1e}{:9.1e}{:5d}{:9.1e}\n",
-               library.shape[i].name, c.mae, c.p99, c.max, c.band_mae, c.normal_p50, c.normal_p95, c.gradient_p1,
-               c.gradient_p99, c.volume_error, c.hausdorff, c.components, reports[i].interior.share_falling);
-  }
-}
-
 }  // namespace
 
 int train_and_write(TrainArguments const& a, std::vector<Body> const& bodies) {
@@ -114,8 +97,7 @@ int train_and_write(TrainArguments const& a, std::vector<Body> const& bodies) {
   PublishOptions publish_options;
   publish_options.seed = options.seed;
   publish_options.threads = options.threads;
-  std::vector<PublishReport> reports;
-  Library const library = publish(trained, bodies, publish_options, &reports);
+  Library const library = publish(trained, bodies, publish_options);
   write_model(a.output, library, a.force);
   double mean = 0, worst = 0;
   for (Shape const& shape : library.shape) {
@@ -123,7 +105,7 @@ int train_and_write(TrainArguments const& a, std::vector<Body> const& bodies) {
     worst = std::max(worst, shape.certificate.mae);
   }
   double const seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  if (!a.quiet) print_certificates(library, reports);
+  if (!a.quiet) fmt::print("{}\n{}", error_table(library.shape), phi_table(library.shape));
   fmt::print(
       "{}: {} shapes, mean MAE {:.2e} d, worst {:.2e} d; trained in {:.0f} s, {:.0f} s with sampling and certificates "
       "(best epoch {})\n",

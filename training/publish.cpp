@@ -7,6 +7,8 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "shapes/certify_phi.h"
+#include "shapes/mesh/certify.h"
 #include "shapes/normalise.h"
 
 namespace scree {
@@ -18,7 +20,7 @@ double largest_relative_error(Vec3 value, Vec3 truth) {
   return error;
 }
 
-PublishReport publish_shape(Library& library, int index, Body const& body, PublishOptions const& options) {
+void publish_shape(Library& library, int index, Body const& body, PublishOptions const& options) {
   NormaliseOptions normalise;
   normalise.cells = options.cells;
   normalise.threads = options.threads;
@@ -27,18 +29,20 @@ PublishReport publish_shape(Library& library, int index, Body const& body, Publi
   Certificate& certificate = shape.certificate;
   certificate.volume_error = std::abs(raw.volume * 6 / std::numbers::pi - 1);
   certificate.inertia_error = largest_relative_error(raw.inertia, body.inertia);
-  certificate.components = raw.components;
-  PublishReport report;
-  report.euler_characteristic = raw.euler_characteristic;
-  report.interior = certify(fast_phi(library, shape, options.threads), body, {raw.axes, raw.centroid, raw.diameter},
-                            options.points, options.seed + 7919 * (index + 1), options.threads, certificate);
-  return report;
+  auto const distance = [&](Span<const Vec3> point, Span<double> phi, Span<Vec3> gradient) {
+    body.distance->evaluate(point, phi, gradient, options.threads);
+  };
+  CertifyTruth truth{distance, &body.mesh, body.exact_mesh};
+  truth.inscribed_radius = body.inscribed_radius;
+  truth.bounding_radius = body.bounding_radius;
+  certify(fast_phi(library, shape, options.threads), truth, {raw.axes, raw.centroid, raw.diameter}, options.points,
+          options.seed + 7919 * (index + 1), certificate);
+  certify_phi(library, shape, {options.points, options.nodes, options.threads}, certificate);
 }
 
 }  // namespace
 
-Library publish(TrainedNet const& trained, std::vector<Body> const& bodies, PublishOptions const& options,
-                std::vector<PublishReport>* reports) {
+Library publish(TrainedNet const& trained, std::vector<Body> const& bodies, PublishOptions const& options) {
   if (trained.code.size() != bodies.size()) throw std::invalid_argument("publish: a code a body is needed");
   Library library;
   library.net.push_back(trained.net);
@@ -54,10 +58,7 @@ Library publish(TrainedNet const& trained, std::vector<Body> const& bodies, Publ
     shape.certificate.made_with = trained.libraries;
     library.shape.push_back(shape);
   }
-  for (std::size_t b = 0; b < bodies.size(); ++b) {
-    PublishReport const report = publish_shape(library, static_cast<int>(b), bodies[b], options);
-    if (reports) reports->push_back(report);
-  }
+  for (std::size_t b = 0; b < bodies.size(); ++b) publish_shape(library, static_cast<int>(b), bodies[b], options);
   return library;
 }
 

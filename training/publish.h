@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "shapes/shape.h"
-#include "training/certify.h"
 #include "training/dataset.h"
 #include "training/train.h"
 
@@ -16,20 +15,15 @@ namespace scree {
 struct PublishOptions {
   int points = 20000;      // of each measurement: shell, band, surface, interior
   int cells = 64;          // grid cells across the ball in which the zero set is sought
+  int nodes = 4000;        // surface nodes whose blind gap is measured; 0: none
   std::uint64_t seed = 1;  // of the training: recorded; the test points are others than the training's
   int threads = 2;
 };
 
-struct PublishReport {
-  int euler_characteristic = 0;  // of the zero set; 2: no handle, void or splinter
-  InteriorReport interior;
-};
-
 // One library with one network and a shape a body, in the bodies' order. Each shape is normalised from its own zero
 // set; the truth it is then measured against is the body's mesh, moved and scaled by the same transform. Volume and
-// inertia errors are those before. `reports` may be null. Throws std::runtime_error naming the body if its network is
+// inertia errors are those before. Throws std::runtime_error naming the body if its network is
 // no solid.
-Library publish(TrainedNet const& trained, std::vector<Body> const& bodies, PublishOptions const& options,
-                std::vector<PublishReport>* reports = nullptr);
+Library publish(TrainedNet const& trained, std::vector<Body> const& bodies, PublishOptions const& options);
 
 }  // namespace scree

@@ -9,6 +9,7 @@
 #include <random>
 
 #include "core/simulation_impl.h"
+#include "shapes/certify_phi.h"
 #include "shapes/model_file.h"
 #include "shapes/normalise.h"
 #include "tests/support/cases.h"
@@ -145,8 +146,7 @@ std::filesystem::path write_warped_model() {
   shape.net = 0;
   library.shape = {shape};
   normalise_net(library, 0, 2.0);
-  library.shape[0].certificate.gradient_p1 = 0.55;  // the gate wants it measured; the test below measures it
-  library.shape[0].certificate.gradient_p99 = 1.75;
+  certify_phi(library, library.shape[0], {2000, 1000, 1}, library.shape[0].certificate);  // the gate wants it
   std::filesystem::path const file = std::filesystem::temp_directory_path() / "scree_warped_test.h5";
   write_model(file, library, true);
   return file;
