@@ -130,6 +130,8 @@ void read_grains(CaseReader r, GrainsCase& out) {
   } else if (nodes) {
     r.integer("nodes", out.nodes);
   }
+  r.choice<NodeStorage>("storage", out.storage,
+                        {{"explicit", NodeStorage::explicit_}, {"compact", NodeStorage::compact}});
   r.number("diameter", out.diameter, Need::required);
   auto insert = r.table("insert", Need::required);
   if (insert) read_insert(*insert, out.insert);

@@ -28,6 +28,8 @@ class InputError : public std::runtime_error {
 
 enum class ContactLaw { winkler };                   // linear and hertz: not in this version
 enum class Evaluator { net, grid, mesh, analytic };  // net: as the shape is stored
+// How surface nodes are kept: positions and areas, or 16-bit radii along directions that all grains share.
+enum class NodeStorage { explicit_, compact };
 enum class WallKind { plane, box };
 enum class Orientation { random, aligned };
 
@@ -88,6 +90,7 @@ struct GrainsCase {
                // "superellipsoid:1:0.8:0.6:0.5" (semi-axis ratios, exponent), "box:1:1:1"; equal shares
   Evaluator evaluator = Evaluator::net;
   int nodes = 4000;  // surface nodes a grain; "fast" = 1000
+  NodeStorage storage = NodeStorage::explicit_;
   int count = 0;
   double diameter = 0.1;  // of the equal-volume sphere [m]
   InsertCase insert;

@@ -226,6 +226,8 @@ void Checker::grains() {
     known(at + ".material", g.material, material_, "material");
     shapes(at, g);
     range(at + ".nodes", g.nodes, 32, true, 1e6, "surface nodes a grain; 4000 for angular grains, \"fast\" = 1000");
+    if (g.storage == NodeStorage::compact)
+      range(at + ".nodes", g.nodes, 32, true, 20000, "surface nodes a grain with storage = \"compact\"");
     range(at + ".grid_cells", g.grid_cells, 8, true, 256,
           "cells across the bounding diameter; memory grows as its cube");
     range(at + ".mesh_cells", g.mesh_cells, 8, true, 128,

@@ -88,7 +88,8 @@ void write_grains(std::string& out, GrainsCase const& g) {
                      quoted(g.material), quoted_list(g.shapes), to_string(g.evaluator));
   if (g.evaluator == Evaluator::grid) out += fmt::format("grid_cells = {}\n", g.grid_cells);
   if (g.evaluator == Evaluator::mesh) out += fmt::format("mesh_cells = {}\n", g.mesh_cells);
-  out += fmt::format("nodes = {}\ncount = {}\ndiameter = {}  # [m]\n", g.nodes, g.count, g.diameter);
+  out += fmt::format("nodes = {}\nstorage = \"{}\"\ncount = {}\ndiameter = {}  # [m]\n", g.nodes,
+                     g.storage == NodeStorage::compact ? "compact" : "explicit", g.count, g.diameter);
   InsertCase const& i = g.insert;
   std::string const moving =
       fmt::format("velocity = {}, spin = {}", vector(i.velocity), vector(i.spin));  // [m/s], [rad/s]

@@ -19,6 +19,7 @@ SceneView Scene::view() const {
   v.nodes.block_centre = block_centre;
   v.nodes.block_radius = block_radius;
   v.nodes.block_first = block_first;
+  compact.fill(v.nodes);
   v.sdf = {coefficient, grid_value, mesh_node, mesh_corner, mesh_normal};
   v.shape_of = shape_of;
   v.material_of = material_of;
@@ -113,7 +114,7 @@ void add_bodies(Case const& c, std::vector<std::vector<int>> const& templates, S
     int const material = material_index(c, grains.material);
     double const density = c.material[material].density, d = grains.diameter;
     for (int shape : assign_shapes(c, static_cast<int>(g), templates[g])) {
-      Shape const& s = scene.library.shape[shape];
+      Shape const s = scene.template_shape(shape);
       scene.shape_of.push_back(shape);
       scene.material_of.push_back(material);
       scene.group_of.push_back(static_cast<int>(g));

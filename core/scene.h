@@ -9,14 +9,31 @@
 #include "core/case.h"
 #include "kernels/sdf_queries.h"
 #include "kernels/views.h"
+#include "shapes/compact_nodes.h"
 #include "shapes/shape.h"
 #include "shapes/surface_nodes.h"
 
 namespace scree {
 
+// Generated grains of shared decoders: what Scene::shape and Scene::compact do not hold of them already. A Shape with
+// its name and certificate would cost more than a fifth of the whole grain.
+struct UniqueGrains {
+  struct Group {
+    std::string name;  // of the grains: name + "0", name + "1", ...
+    int net;           // of Scene::networks
+    int first, count;  // among the unique grains
+    std::size_t first_code;
+  };
+  std::vector<Group> group;
+  std::vector<float> code;
+  std::vector<float> area;    // [d^2] (n_unique)
+  std::vector<Vec3> inertia;  // principal, unit density [d^5] (n_unique)
+};
+
 struct Scene {
   // Shapes in use, one template each (a shape with another node count is another template).
-  Library library;                 // library.shape[i] is template i
+  Library library;  // library.shape[i] is template i; unique grains follow after its last shape
+  UniqueGrains unique;
   std::vector<ShapeRecord> shape;  // (n_templates)
   std::vector<int> nodes_wanted;   // (n_templates)
   NetworkSet networks;
@@ -30,6 +47,7 @@ struct Scene {
   std::vector<Vec3> block_centre;
   std::vector<double> block_radius;
   std::vector<int> block_first;  // with an end entry a template
+  CompactStore compact;          // nodes of templates that keep 16-bit radii
 
   // Bodies.
   std::vector<int> shape_of, material_of, group_of;  // group: index of the [[grains]] entry
@@ -44,6 +62,8 @@ struct Scene {
   std::vector<std::string> notes;  // what the user should know about the making of the scene
 
   SceneView view() const;
+  // Template as a shape of its own: unique grains are unpacked.
+  Shape template_shape(int index) const;
   int bodies() const { return static_cast<int>(shape_of.size()); }
 };
 

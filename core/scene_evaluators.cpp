@@ -21,6 +21,8 @@ int index_of(std::vector<T> const& list, T const& part) {
   return at == list.end() ? -1 : static_cast<int>(at - list.begin());
 }
 
+}  // namespace
+
 ShapeRecord record_of(Shape const& shape) {
   ShapeRecord r;
   r.closed_form_sphere = shape.kind == ShapeKind::analytic && shape.analytic.kind == AnalyticKind::sphere;
@@ -30,16 +32,12 @@ ShapeRecord record_of(Shape const& shape) {
   r.query_scale = shape.query.scale;
   r.bounding_radius = shape.bounding_radius;
   r.box = shape.box;
-  // The box is that of a triangulated zero set, whose vertices lie on it to 1e-6 d and whose chords lie inside. Boxes
-  // of formulas, grids and meshes are exact.
-  double constexpr slack = 2e-3;
+  // Boxes of formulas, grids and meshes are exact.
   if (shape.is_net() || shape.kind == ShapeKind::harmonics)
-    for (int k = 0; k < 3; ++k) r.box.min[k] -= slack, r.box.max[k] += slack;
+    for (int k = 0; k < 3; ++k) r.box.min[k] -= box_slack, r.box.max[k] += box_slack;
   r.lipschitz = std::max(1.0, shape.lipschitz);
   return r;
 }
-
-}  // namespace
 
 int SceneEvaluators::place_net(int library, int net) {
   auto const [at, fresh] = net_.emplace(std::pair{library, net}, static_cast<int>(scene_.networks.net.size()));

@@ -11,6 +11,12 @@
 
 namespace scree {
 
+// What a network's box grows by: it is that of a triangulated zero set, whose chords lie inside [d].
+double constexpr box_slack = 2e-3;
+
+// Record of a shape without nodes and without what answers for its phi.
+ShapeRecord record_of(Shape const& shape);
+
 // Fills Scene::networks, the arrays behind SdfDataView and the parts of Scene::library. What several templates share
 // (a decoder, a mesh, a baked grid) is stored once.
 class SceneEvaluators {

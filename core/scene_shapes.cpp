@@ -12,6 +12,7 @@
 #include "core/certificate_gate.h"
 #include "core/nearest_name.h"
 #include "core/scene_evaluators.h"
+#include "core/unique_grains.h"
 #include "shapes/analytic_shapes.h"
 #include "shapes/mesh_files.h"
 #include "shapes/mesh_shape.h"
@@ -85,6 +86,12 @@ void ShapeCatalogue::choose_evaluator(GrainsCase const& grains, std::string cons
   if (grains.evaluator == Evaluator::grid) key.evaluated = ShapeKind::grid, key.cells = grains.grid_cells;
   if (grains.evaluator == Evaluator::mesh) key.evaluated = ShapeKind::mesh, key.cells = grains.mesh_cells;
   if (key.evaluated == stored) key.cells = 0;  // nothing to bake
+  key.compact = grains.storage == NodeStorage::compact;
+  if (key.compact && key.evaluated != ShapeKind::net)
+    found.push_back(
+        fmt::format("grains '{}': storage = \"compact\" is for shapes run as networks; '{}' runs as {}. Use storage = "
+                    "\"explicit\".",
+                    grains.name, word, to_string(key.evaluated)));
 }
 
 std::vector<int> ShapeCatalogue::templates_for(GrainsCase const& grains, Scene& scene,
@@ -159,6 +166,17 @@ void ShapeCatalogue::finish(Scene& scene, int threads, std::vector<std::string>&
       scene.shape.push_back({});
     }
   }
+  // 16-bit radii along shared directions, and the frame that belongs to them; bodies that rays cannot describe keep
+  // arrays.
+  CompactMakers makers(libraries_, scene);
+  std::vector<CompactMakers::Entry const*> maker(keys_.size(), nullptr);
+  for (std::size_t i = 0; i < keys_.size(); ++i) {
+    Key const& key = keys_[i];
+    if (key.compact && key.evaluated == ShapeKind::net)
+      maker[i] = &makers.get(key.library, libraries_[key.library].shape[key.shape].net, key.nodes);
+  }
+  std::vector<CompactGrain> compact(keys_.size());
+  std::vector<GrainFault> fault(keys_.size(), GrainFault::no_surface);
   bool const only_spheres =
       std::all_of(scene.shape.begin(), scene.shape.end(), [](ShapeRecord const& r) { return r.closed_form_sphere; });
   // Node sets are independent of each other and of the thread that makes them.
@@ -169,6 +187,8 @@ void ShapeCatalogue::finish(Scene& scene, int threads, std::vector<std::string>&
     if (only_spheres) continue;  // they meet in closed form
     try {
       Shape const& shape = scene.library.shape[i];
+      if (maker[i]) fault[i] = maker[i]->maker->make(shape.code, compact[i]);
+      if (maker[i] && fault[i] == GrainFault::none) continue;
       nodes[i] = make_surface_nodes(scene.library, shape, keys_[i].nodes, {.measure_gap = false});
     } catch (std::exception const& e) {
       errors[i] = "shape '" + scene.library.shape[i].name + "': no surface nodes: " + e.what();
@@ -176,7 +196,21 @@ void ShapeCatalogue::finish(Scene& scene, int threads, std::vector<std::string>&
   }
   for (std::size_t i = 0; i < keys_.size(); ++i) {
     if (!errors[i].empty()) found.push_back(errors[i]);
-    append_nodes(nodes[i], scene.shape[i], scene);
+    if (!maker[i] || fault[i] != GrainFault::none) {
+      if (maker[i])
+        scene.notes.push_back(fmt::format("shape '{}' is kept as arrays of nodes, not compact: {}",
+                                          scene.library.shape[i].name, to_string(fault[i])));
+      append_nodes(nodes[i], scene.shape[i], scene);
+      continue;
+    }
+    Shape& shape = scene.library.shape[i];
+    ShapeRecord& record = scene.shape[i];
+    adopt(compact[i], shape);
+    ShapeRecord const framed = record_of(shape);
+    record.query_rotation = framed.query_rotation, record.query_shift = framed.query_shift;
+    record.query_scale = framed.query_scale;
+    record.bounding_radius = framed.bounding_radius, record.box = framed.box, record.lipschitz = framed.lipschitz;
+    scene.compact.append(compact[i], maker[i]->set, record);
   }
 }
 

@@ -25,6 +25,7 @@ class ShapeCatalogue {
     int nodes;
     ShapeKind evaluated = ShapeKind::analytic;
     int cells = 0;  // of the grid or mesh to bake; 0: evaluated as it is stored
+    bool compact = false;
     bool operator==(Key const&) const = default;
   };
   int add(Key const& key, Scene& scene);

@@ -7,6 +7,7 @@
 
 #include "core/certificate_gate.h"
 #include "core/simulation_impl.h"
+#include "core/unique_grains.h"
 
 namespace scree {
 namespace {
@@ -33,7 +34,12 @@ std::vector<Plan::Array> arrays_of(Simulation::Impl const& s) {
   auto const add = [&](bool wanted, char const* name, std::int64_t size) {
     if (wanted) arrays.push_back({name, size});
   };
-  add(s.effects.node_contacts, "surface nodes", bytes(s.scene.node_position) + bytes(s.scene.node_area));
+  add(s.effects.node_contacts, "surface nodes",
+      bytes(s.scene.node_position) + bytes(s.scene.node_area) + bytes(s.scene.block_centre) +
+          bytes(s.scene.block_radius) + bytes(s.scene.block_first));
+  CompactBytes const compact = compact_bytes(s.scene);
+  add(compact.grains > 0, "compact nodes", static_cast<std::int64_t>(compact.nodes + compact.culling));
+  add(s.effects.node_contacts, "shape records", bytes(s.scene.shape) + bytes(s.scene.compact.record));
   std::int64_t weights = 0;
   for (PackedMlp const& net : s.scene.networks.net)
     for (auto const& w : net.net().weight) weights += bytes(w);
@@ -67,6 +73,11 @@ Plan Simulation::plan() const {
   plan.step = s.state.time_step;
   plan.steps = static_cast<std::int64_t>(std::ceil(s.c.time.end / s.state.time_step));
   plan.notes = limits_set(s.c.limits);
+  if (CompactBytes const b = compact_bytes(s.scene); b.grains > 0)
+    plan.notes.push_back(fmt::format(
+        "{} compact grains of {} bytes each: nodes {}, culling {}, folded bias {}, records {}, code and mass {}",
+        b.grains, b.total() / b.grains, b.nodes / b.grains, b.culling / b.grains, b.bias / b.grains,
+        b.record / b.grains, b.host / b.grains));
   if (plan.bodies == 0) plan.notes.push_back("the case has no grains");
   if (std::isfinite(s.estimate.critical)) {
     plan.notes.push_back(fmt::format(
@@ -86,7 +97,9 @@ ResultsHeader Simulation::results_header() const {
   ResultsHeader header;
   header.case_text = to_toml(s.c);
   header.library = s.scene.library;
-  for (Shape const& shape : s.scene.library.shape) header.shape_name.push_back(shape.name);
+  for (std::size_t i = header.library.shape.size(); i < s.scene.shape.size(); ++i)
+    header.library.shape.push_back(s.scene.template_shape(static_cast<int>(i)));
+  for (Shape const& shape : header.library.shape) header.shape_name.push_back(shape.name);
   header.shape = s.scene.shape_of;
   header.diameter = s.scene.diameter;
   header.material = s.scene.material_of;

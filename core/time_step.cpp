@@ -62,7 +62,7 @@ StepEstimate estimate_critical_step(Case const& c, Scene const& scene, Placement
     speed2 += 2 * norm(*c.gravity) * fall_height(normalized(*c.gravity), scene, placement);
   out.speed = std::sqrt(speed2);
   for (int i = 0; i < scene.bodies(); ++i) {
-    Shape const& shape = scene.library.shape[scene.shape_of[i]];
+    Shape const shape = scene.template_shape(scene.shape_of[i]);
     double const d = scene.diameter[i], m = scene.mass[i];
     Vec3 const inertia = scene.inertia[i];
     for (int material = 0; material < static_cast<int>(scene.material.size()); ++material) {

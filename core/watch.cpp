@@ -43,7 +43,7 @@ WatchReport watch(Queue const& queue, Scene const& scene, State& state, double g
 }
 
 std::string describe_body(Scene const& scene, int body) {
-  return "grain " + std::to_string(body) + " (" + scene.library.shape[scene.shape_of[body]].name + ")";
+  return "grain " + std::to_string(body) + " (" + scene.template_shape(scene.shape_of[body]).name + ")";
 }
 
 std::string describe_pair(Scene const& scene, Case const& c, Pair pair) {

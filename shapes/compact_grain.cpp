@@ -166,18 +166,23 @@ GrainFault CompactGrainMaker::make(Span<const float> code, CompactGrain& grain) 
   return make_compact_grain(decoder_phi(net_, code), ball_, lipschitz_, set_, grain);
 }
 
+void adopt(CompactGrain const& grain, Shape& shape) {
+  shape.query = grain.query;
+  shape.volume = std::numbers::pi / 6;
+  shape.area = grain.area;
+  shape.inertia = grain.inertia;
+  shape.bounding_radius = grain.bounding_radius;
+  shape.box = grain.box;
+  shape.lipschitz = grain.lipschitz;
+}
+
 Shape to_shape(CompactGrain const& grain, int net, Span<const float> code, std::string name) {
   Shape s;
   s.name = std::move(name);
   s.kind = ShapeKind::net;
   s.net = net;
   s.code.assign(code.begin(), code.end());
-  s.query = grain.query;
-  s.area = grain.area;
-  s.inertia = grain.inertia;
-  s.bounding_radius = grain.bounding_radius;
-  s.box = grain.box;
-  s.lipschitz = grain.lipschitz;
+  adopt(grain, s);
   return s;
 }
 

@@ -55,6 +55,9 @@ class CompactGrainMaker {
   double ball_ = 0, lipschitz_ = 1;
 };
 
+// The frame, mass and bounds of the grain into a shape of the same phi.
+void adopt(CompactGrain const& grain, Shape& shape);
+
 // The grain as any other shape of the library whose network `net` made it.
 Shape to_shape(CompactGrain const& grain, int net, Span<const float> code, std::string name);
 

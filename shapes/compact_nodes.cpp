@@ -18,7 +18,7 @@ struct OneGrain {
   ShapeRecord shape;
 
   OneGrain(CompactGrain const& grain, DirectionSet const& set) {
-    shared.append(set);
+    shared.place(set);
     shared.fill(view);
     view.compact = {&grain.nodes, 1};
     view.radius = grain.radius;
@@ -71,7 +71,9 @@ void choose_balls(DirectionSet const& set, CompactGrain& grain) {
 
 }  // namespace
 
-void SharedDirections::append(DirectionSet const& set) {
+int SharedDirections::place(DirectionSet const& set) {
+  for (std::size_t k = 0; k < record.size(); ++k)
+    if (record[k].count == set.count()) return static_cast<int>(k);
   DirectionsRecord r;
   r.first = static_cast<int>(direction.size());
   r.count = set.count();
@@ -85,6 +87,7 @@ void SharedDirections::append(DirectionSet const& set) {
   ring_first.insert(ring_first.end(), set.ring_first.begin(), set.ring_first.end());
   neighbour.insert(neighbour.end(), set.neighbour.begin(), set.neighbour.end());
   block_axis.insert(block_axis.end(), set.block_axis.begin(), set.block_axis.end());
+  return static_cast<int>(record.size()) - 1;
 }
 
 void SharedDirections::fill(NodesView& view) const {
@@ -93,6 +96,36 @@ void SharedDirections::fill(NodesView& view) const {
   view.block_axis = block_axis;
   view.ring_first = ring_first;
   view.neighbour = neighbour;
+}
+
+void CompactStore::reserve(std::size_t grains, DirectionSet const& set) {
+  std::size_t const blocks = std::size_t(set.surface_blocks) + set.core_blocks;
+  record.reserve(record.size() + grains);
+  radius.reserve(radius.size() + grains * set.count());
+  block_reach.reserve(block_reach.size() + grains * blocks);
+  block_ball.reserve(block_ball.size() + grains * blocks);
+}
+
+void CompactStore::append(CompactGrain const& grain, int set, ShapeRecord& shape) {
+  shape.compact = static_cast<int>(record.size());
+  shape.first_node = static_cast<int>(radius.size());
+  shape.first_block = static_cast<int>(block_ball.size());
+  shape.nodes = directions.record[set].nodes();
+  shape.blocks = directions.record[set].blocks();
+  shape.node_spacing = std::sqrt(double(grain.nodes.area) / directions.record[set].count);
+  record.push_back(grain.nodes);
+  record.back().directions = set;
+  radius.insert(radius.end(), grain.radius.begin(), grain.radius.end());
+  block_reach.insert(block_reach.end(), grain.block_reach.begin(), grain.block_reach.end());
+  block_ball.insert(block_ball.end(), grain.block_ball.begin(), grain.block_ball.end());
+}
+
+void CompactStore::fill(NodesView& view) const {
+  directions.fill(view);
+  view.compact = record;
+  view.radius = radius;
+  view.block_reach = block_reach;
+  view.block_ball = block_ball;
 }
 
 void encode_nodes(Rays const& rays, DirectionSet const& set, std::vector<double> const& radius, CompactGrain& grain) {

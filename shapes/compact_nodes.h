@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "kernels/views.h"
 #include "shapes/compact_grain.h"
 
 namespace scree {
@@ -16,7 +17,22 @@ struct SharedDirections {
   std::vector<Vec3> direction, block_axis;
   std::vector<int> ring_first, neighbour;
 
-  void append(DirectionSet const& set);
+  // Index of the set of this count, appended where it is new: make_direction_set makes one a count.
+  int place(DirectionSet const& set);
+  void fill(NodesView& view) const;
+};
+
+// Nodes of all compact shapes of a scene.
+struct CompactStore {
+  SharedDirections directions;
+  std::vector<CompactRecord> record;                  // (n_compact_shapes)
+  std::vector<std::uint16_t> radius;                  // (n_compact_nodes)
+  std::vector<std::uint8_t> block_reach, block_ball;  // (n_compact_blocks)
+
+  // Room for so many more grains of this set: vectors that grow by doubling hold up to twice what they need.
+  void reserve(std::size_t grains, DirectionSet const& set);
+  // `set`: index of the grain's directions in directions.record. Fills in the node fields of `shape`.
+  void append(CompactGrain const& grain, int set, ShapeRecord& shape);
   void fill(NodesView& view) const;
 };
 

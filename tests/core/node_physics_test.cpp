@@ -168,6 +168,29 @@ TEST(NodePhysics, NodeListsOfNetworksGiveTheContactSetsOfBruteForce) {
   EXPECT_EQ(lists.frame().position, brute.frame().position);
 }
 
+// The same for nodes kept as 16-bit radii; sand/4 is not star-shaped and keeps arrays, so both storages meet.
+TEST(NodePhysics, NodeListsOfCompactGrainsGiveTheContactSetsOfBruteForce) {
+  Case c = heap();
+  c.library = {{"grains", std::filesystem::path(SCREE_SOURCE_DIR) / "shapes/library/grains.h5"}};
+  c.grains[0].shapes = {"grains:ballast/0", "grains:sand/4", "grains:cobble/1", "grains:ellipsoid/3"};
+  c.grains[0].storage = NodeStorage::compact;
+  c.grains[0].nodes = 150;
+  c.grains[0].insert.box = {{0, 0, 0}, {0.34, 0.34, 1.2}};
+  c.wall = {open_box({0, 0, 0}, {0.34, 0.34, 2})};
+  Simulation lists(c, {.threads = 1}), brute(c, {.threads = 2, .brute_force = true});
+  ASSERT_EQ(lists.impl().scene.compact.record.size(), 3u);
+  std::size_t contacts = 0;
+  while (lists.state() == RunState::running) {
+    lists.step();
+    brute.step();
+    ASSERT_EQ(active_nodes(lists), active_nodes(brute)) << "at step " << lists.steps();
+    contacts += active_nodes(lists).size();
+  }
+  EXPECT_GT(contacts, 500u);
+  EXPECT_EQ(lists.frame().position, brute.frame().position);
+  EXPECT_EQ(lists.ledger().residual, brute.ledger().residual);
+}
+
 TEST(NodePhysics, ThreadsDoNotChangeTheBits) {
   Case const c = heap();
   Simulation one(c, {.threads = 1}), two(c, {.threads = 2}), four(c, {.threads = 4});
