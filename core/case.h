@@ -90,12 +90,12 @@ struct GrainsCase {
                // "superellipsoid:1:0.8:0.6:0.5" (semi-axis ratios, exponent), "box:1:1:1"; equal shares
   Evaluator evaluator = Evaluator::net;
   int nodes = 4000;  // surface nodes a grain; "fast" = 1000
-  NodeStorage storage = NodeStorage::explicit_;
   int count = 0;
   double diameter = 0.1;  // of the equal-volume sphere [m]
   InsertCase insert;
   int grid_cells = default_grid_cells;  // evaluator grid: cells across the bounding diameter
   int mesh_cells = default_mesh_cells;  // evaluator mesh, unless the shape is stored as one: the same
+  NodeStorage storage = NodeStorage::explicit_;
 };
 
 struct WallCase {
