@@ -50,7 +50,7 @@ std::vector<std::string> gate_problems(Shape const& shape, std::filesystem::path
   if (!unmeasured.empty())
     found.push_back(
         fmt::format("shape '{}' has no certificate for {}: never measured. `scree-shape inspect {} --write` "
-                    "measures it and writes it into the file; with --mesh the errors too",
+                    "measures it and writes it into the file",
                     shape.name, fmt::join(unmeasured, ", "), model.filename().string()));
   if (has_gradient(c) && (c.gradient_p1 < limits.gradient_low || c.gradient_p99 > limits.gradient_high))
     found.push_back(

@@ -38,7 +38,7 @@ void add_fit_command(CLI::App& app, std::function<int()>& chosen) {
   CLI::App* const c = app.add_subcommand("fit", "One network for one closed mesh or formula (SingleNetSDF)");
   c->add_option(
        "mesh", a->mesh,
-       "Closed mesh (.stl, .obj), any unit (scree-shape import repairs simple defects), or a formula with exact "
+       "Closed mesh (.stl, .obj, .ply), any unit (scree-shape import repairs simple defects), or a formula with exact "
        "distances: ellipsoid:1:0.8:0.6, superellipsoid:1:0.8:0.6:0.5, box:1:1:2")
       ->required();
   c->add_option("--name", a->name, "Name of the shape (default: the file's)");
@@ -57,6 +57,9 @@ void add_coded_command(CLI::App& app, std::function<int()>& chosen) {
   TrainOptions& t = a->train;
   c->add_option("--code-size", t.code_size, "Latent numbers a shape")->check(CLI::Range(1, 64))->capture_default_str();
   c->add_option("--code-rate", t.code_rate, "First learning rate of the codes")->capture_default_str();
+  c->add_option("--code-spread", t.code_spread,
+                "Standard deviation of the first codes; far apart, a sine network puts nothing between two grains")
+      ->capture_default_str();
   c->add_option("--code-penalty", t.code_penalty, "Weight of the mean squared code in the loss")->capture_default_str();
   add_training_options(*c, *a);
   c->callback([a, &chosen] { chosen = [a] { return coded(*a); }; });

@@ -42,6 +42,7 @@ TrainOptions default_single_options() { return {}; }
 TrainOptions default_coded_options() {
   TrainOptions o;
   o.code_size = 10;
+  o.code_spread = 0.02;  // codes that begin far apart are hashed by the sine: nothing lies between two grains
   o.layers = 6;
   o.width = 64;
   o.steps = 24000;
