@@ -19,6 +19,7 @@ namespace scree {
 struct TrainArguments {
   std::filesystem::path mesh, output, log;  // log: a CSV line an epoch; empty: none
   std::string name;                         // of the shape; empty: the mesh file's stem
+  bool repair = false;                      // the mesh first, where it bounds no solid
   std::string set = "grains20";
   std::uint64_t set_seed = 1;      // of the procedural grains
   std::string recipe = "default";  // or "paper"
@@ -38,8 +39,9 @@ int train_and_write(TrainArguments const& arguments, std::vector<Body> const& bo
 // Everything that can go wrong with the output is said before minutes are spent on it.
 void check_output(std::filesystem::path const& file, bool force);
 
-// A closed mesh, normalised. Throws std::invalid_argument naming the file and its first defect.
-TriangleMesh read_closed_mesh(std::filesystem::path const& file);
+// A closed mesh, normalised. One with defects is repaired where `repair` asks for it, telling what was done; else
+// std::invalid_argument names the file, all its defects and the way out.
+TriangleMesh read_closed_mesh(std::filesystem::path const& file, bool repair);
 
 // Each adds its subcommand, which sets `chosen` when it is called.
 void add_fit_command(CLI::App& app, std::function<int()>& chosen);

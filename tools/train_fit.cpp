@@ -17,7 +17,7 @@ int fit(TrainArguments const& a) {
     return train_and_write(a, {make_body(a.name.empty() ? formula : a.name, builtin_shape(formula))});
   }
   std::string const name = a.name.empty() ? a.mesh.stem().string() : a.name;
-  TriangleMesh mesh = read_closed_mesh(a.mesh);
+  TriangleMesh mesh = read_closed_mesh(a.mesh, a.repair);
   std::string const source = "mesh " + a.mesh.filename().string();
   return train_and_write(a, {make_body(name, std::move(mesh), source, file_hash(a.mesh))});
 }
@@ -36,12 +36,12 @@ void add_fit_command(CLI::App& app, std::function<int()>& chosen) {
   auto const a = std::make_shared<TrainArguments>();
   a->train = default_single_options();
   CLI::App* const c = app.add_subcommand("fit", "One network for one closed mesh or formula (SingleNetSDF)");
-  c->add_option(
-       "mesh", a->mesh,
-       "Closed mesh (.stl, .obj, .ply), any unit (scree-shape import repairs simple defects), or a formula with exact "
-       "distances: ellipsoid:1:0.8:0.6, superellipsoid:1:0.8:0.6:0.5, box:1:1:2")
+  c->add_option("mesh", a->mesh,
+                "Closed mesh (.stl, .obj, .ply), any unit (--repair mends simple defects), or a formula with exact "
+                "distances: ellipsoid:1:0.8:0.6, superellipsoid:1:0.8:0.6:0.5, box:1:1:2")
       ->required();
   c->add_option("--name", a->name, "Name of the shape (default: the file's)");
+  c->add_flag("--repair", a->repair, "First repair a mesh that bounds no solid, as scree-shape import does");
   add_training_options(*c, *a);
   c->callback([a, &chosen] { chosen = [a] { return fit(*a); }; });
 }

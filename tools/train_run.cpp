@@ -34,7 +34,7 @@ void check_output(std::filesystem::path const& file, bool force) {
     throw std::system_error(errno, std::generic_category(), folder.string() + " cannot be written");
 }
 
-TriangleMesh read_closed_mesh(std::filesystem::path const& file) {
+TriangleMesh read_closed_mesh(std::filesystem::path const& file, bool repair) {
   TriangleMesh mesh;
   try {
     mesh = read_mesh(file);
@@ -42,7 +42,20 @@ TriangleMesh read_closed_mesh(std::filesystem::path const& file) {
     throw std::invalid_argument(error.what());
   }
   MeshReport const report = check_mesh(mesh, false);
-  if (!report.defects.empty()) throw std::invalid_argument(file.string() + ": " + report.defects.front());
+  if (report.defects.empty()) return normalised(mesh);
+  std::string found;
+  for (std::string const& defect : report.defects) found += "\n  " + defect;
+  if (!repair)
+    throw std::invalid_argument(file.string() + ": the mesh bounds no solid:" + found +
+                                "\nRepair it with `scree-shape import`, or add --repair to do both at once");
+  fmt::print("{}: found:{}\n", file.string(), found);
+  std::vector<std::string> actions;
+  try {
+    mesh = repair_mesh(mesh, &actions);
+  } catch (std::runtime_error const& error) {
+    throw std::invalid_argument(file.string() + ": " + error.what());
+  }
+  for (std::string const& action : actions) fmt::print("  {}\n", action);
   return normalised(mesh);
 }
 

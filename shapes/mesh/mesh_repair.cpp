@@ -82,7 +82,14 @@ TriangleMesh repair_mesh(TriangleMesh const& input, std::vector<std::string>* ac
   }
   TriangleMesh const result = cgal::from_cgal(mesh);
   MeshReport const report = check_mesh(result);
-  if (!report.defects.empty()) throw std::runtime_error("cannot be repaired: " + report.defects.front());
+  if (!report.defects.empty()) {
+    std::string const& left = report.defects.front();
+    throw std::runtime_error("cannot be repaired: " + left.substr(0, left.rfind(" (scree-shape")) +
+                             (report.open_edges > 0 ? "; holes of more than " + std::to_string(largest_hole) +
+                                                          " edges stay open unless scree-shape import "
+                                                          "--largest-hole is raised"
+                                                    : ""));
+  }
   if (actions_out) *actions_out = actions;
   return result;
 }

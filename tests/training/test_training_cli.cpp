@@ -110,6 +110,49 @@ TEST_F(TrainingPrograms, ImportRepairsAndRefuses) {
   EXPECT_TRUE(says("--force")) << said_;
 }
 
+// Each defect is named with a place and the repair, by both programs; import mends it, and so does fit --repair.
+TEST_F(TrainingPrograms, EveryDefectIsNamedAndMended) {
+  TriangleMesh const good = icosphere(2);
+  TriangleMesh open = good, fin = good, inside_out = good, two = good;
+  open.triangle.pop_back();
+  fin.vertex.push_back({3, 3, 3});
+  fin.triangle.push_back({good.triangle[0][0], good.triangle[0][1], static_cast<int>(fin.vertex.size()) - 1});
+  for (auto& t : inside_out.triangle) std::swap(t[0], t[1]);
+  int const first = static_cast<int>(good.vertex.size());
+  TriangleMesh const small = icosphere(0);
+  for (Vec3 const& v : small.vertex) two.vertex.push_back(v * 0.1 + Vec3{7, 0, 0});
+  for (auto const& t : small.triangle) two.triangle.push_back({first + t[0], first + t[1], first + t[2]});
+  struct Defect {
+    char const* file;
+    TriangleMesh const& mesh;
+    char const* name;
+    char const* place;  // where both programs see it
+    char const* mended;
+  };
+  for (Defect const& d : {Defect{"hole.stl", open, "is open along 3 edges", "one at (", "filled a hole of 3 edges"},
+                          Defect{"fin.stl", fin, "is non-manifold", "one at (", "smaller parts"},
+                          Defect{"turned.stl", inside_out, "is inside out", "", "right side out"},
+                          Defect{"two.stl", two, "has 2 separate parts", "one at (", "removed 1 smaller parts"}}) {
+    write_mesh(folder_ / d.file, d.mesh);
+    std::string const file = d.file;
+    EXPECT_EQ(run(SCREE_TRAIN, "fit " + file + " -o rock.h5"), 2);
+    for (char const* part : {d.file, d.name, d.place, "scree-shape import", "--repair"})
+      EXPECT_TRUE(says(part)) << part << " | " << said_;
+    EXPECT_EQ(run(SCREE_SHAPE, "import " + file + " -o mended_" + file), 0) << said_;
+    for (char const* part : {d.name, d.place, d.mended}) EXPECT_TRUE(says(part)) << part << " | " << said_;
+    EXPECT_TRUE(check_mesh(read_mesh(folder_ / ("mended_" + file))).defects.empty()) << file;
+  }
+  ASSERT_EQ(run(SCREE_TRAIN, "fit fin.stl --repair -o rock.h5 --steps 100" + tiny_), 0) << said_;
+  for (char const* part : {"is non-manifold", "smaller parts", "errors", "falling"}) EXPECT_TRUE(says(part)) << said_;
+  EXPECT_EQ(run(SCREE_TRAIN, "fit half.stl --repair -o half.h5 --steps 3" + tiny_), 2);
+  EXPECT_TRUE(says("--largest-hole")) << said_;
+
+  TriangleMesh sheet{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.3, 0.3, 0}}, {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}}};
+  write_mesh(folder_ / "sheet.stl", sheet);
+  EXPECT_EQ(run(SCREE_SHAPE, "import sheet.stl -o thick.stl"), 2);
+  EXPECT_TRUE(says("encloses no volume")) << said_;
+}
+
 TEST_F(TrainingPrograms, StudyWritesItsTableAndPicture) {
   ASSERT_EQ(run(SCREE_TRAIN, "study coded-convergence --quick -o out"), 0) << said_;
   std::istringstream csv(contents(folder_ / "out/coded-convergence.csv"));
