@@ -6,11 +6,11 @@
 #include <cmath>
 #include <filesystem>
 #include <random>
-#include <tuple>
 
 #include "core/simulation_impl.h"
 #include "kernels/restitution.h"
 #include "tests/support/cases.h"
+#include "tests/support/contact_sets.h"
 
 namespace scree {
 namespace {
@@ -105,16 +105,6 @@ TEST(NodePhysics, SlidingImpactTakesTheCoulombImpulse) {
   EXPECT_LT(std::abs(s.ledger().residual), 1e-3 * s.ledger().moved);
 }
 
-std::vector<std::tuple<int, int, int>> active_nodes(Simulation& s) {
-  std::vector<std::tuple<int, int, int>> found;
-  auto const& w = s.impl().work;
-  for (std::size_t side = 0; side < w.gather.lists.side.size(); ++side)
-    for (int i = w.active.first[side]; i < w.active.first[side + 1]; ++i)
-      found.push_back({w.gather.lists.side[side].carrier, w.gather.lists.side[side].partner, w.active.node[i]});
-  std::sort(found.begin(), found.end());
-  return found;
-}
-
 Case heap() {
   Case c = rock_case();
   c.gravity = Vec3{0, 0, -9.81};
@@ -136,16 +126,8 @@ Case heap() {
 TEST(NodePhysics, NodeListsGiveTheContactSetsOfBruteForce) {
   Case const c = heap();
   Simulation lists(c, {}), brute(c, {.threads = 2, .brute_force = true});
-  long contacts = 0;
-  while (lists.state() == RunState::running) {
-    lists.step();
-    brute.step();
-    ASSERT_EQ(active_nodes(lists), active_nodes(brute)) << "at step " << lists.steps();
-    contacts += active_nodes(lists).size();
-  }
-  EXPECT_GT(contacts, 1000);
+  expect_same_contact_sets(lists, brute, 1000);
   EXPECT_LT(lists.impl().work.active.queries, brute.impl().work.active.queries / 20);
-  EXPECT_EQ(lists.frame().position, brute.frame().position);
 }
 
 // The same for the shipped networks, whose Lipschitz bound is sampled, not proved.
@@ -157,15 +139,7 @@ TEST(NodePhysics, NodeListsOfNetworksGiveTheContactSetsOfBruteForce) {
   c.wall = {open_box({0, 0, 0}, {0.34, 0.34, 2})};
   c.time.end = 0.04;
   Simulation lists(c, {.threads = 2}), brute(c, {.threads = 2, .brute_force = true});
-  std::size_t contacts = 0;
-  while (lists.state() == RunState::running) {
-    lists.step();
-    brute.step();
-    ASSERT_EQ(active_nodes(lists), active_nodes(brute)) << "at step " << lists.steps();
-    contacts += active_nodes(lists).size();
-  }
-  EXPECT_GT(contacts, 1000u);
-  EXPECT_EQ(lists.frame().position, brute.frame().position);
+  expect_same_contact_sets(lists, brute, 1000);
 }
 
 // The same for nodes kept as 16-bit radii; sand/4 is not star-shaped and keeps arrays, so both storages meet.
@@ -179,15 +153,7 @@ TEST(NodePhysics, NodeListsOfCompactGrainsGiveTheContactSetsOfBruteForce) {
   c.wall = {open_box({0, 0, 0}, {0.34, 0.34, 2})};
   Simulation lists(c, {.threads = 1}), brute(c, {.threads = 2, .brute_force = true});
   ASSERT_EQ(lists.impl().scene.compact.record.size(), 3u);
-  std::size_t contacts = 0;
-  while (lists.state() == RunState::running) {
-    lists.step();
-    brute.step();
-    ASSERT_EQ(active_nodes(lists), active_nodes(brute)) << "at step " << lists.steps();
-    contacts += active_nodes(lists).size();
-  }
-  EXPECT_GT(contacts, 500u);
-  EXPECT_EQ(lists.frame().position, brute.frame().position);
+  expect_same_contact_sets(lists, brute, 500);
   EXPECT_EQ(lists.ledger().residual, brute.ledger().residual);
 }
 
