@@ -9,6 +9,7 @@
 #include <cstdlib>
 
 #include "core/case_check.h"
+#include "core/case_effects_text.h"
 #include "core/case_reader.h"
 #include "core/certificate_gate.h"
 
@@ -213,6 +214,7 @@ void read_case(CaseReader root, Case& out) {
     gravity->vector("acceleration", out.gravity.emplace(), Need::required);
     gravity->finish();
   }
+  read_effects(root, out);
   read_list(root, "library", out.library, read_library);
   read_list(root, "material", out.material, read_material);
   read_list(root, "contact", out.contact, read_contact);
@@ -221,7 +223,7 @@ void read_case(CaseReader root, Case& out) {
   if (auto output = root.table("output")) read_output(*output, out.output);
   if (auto checkpoint = root.table("checkpoint")) read_checkpoint(*checkpoint, out.checkpoint.emplace());
   if (auto limits = root.table("limits")) read_limits(*limits, out.limits);
-  root.unsupported({"drag", "global_damping", "force", "deletion", "relax", "replicas", "measure"});
+  root.unsupported({"relax", "replicas", "measure"});
   root.finish();
 }
 

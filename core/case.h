@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/case_effects.h"
 #include "kernels/base/vec.h"
 #include "shapes/bake.h"
 
@@ -137,6 +138,9 @@ struct Case {
   std::uint64_t seed = 1;
   TimeCase time;
   std::optional<Vec3> gravity;  // [m/s2]; absent: none
+  std::optional<DragCase> drag;
+  std::optional<DampingCase> damping;
+  std::vector<ForceCase> force;
   std::vector<LibraryCase> library;
   std::vector<MaterialCase> material;
   std::vector<ContactCase> contact;

@@ -11,6 +11,7 @@
 #include <limits>
 #include <set>
 
+#include "core/case_effects_text.h"
 #include "core/certificate_gate.h"
 #include "core/nearest_name.h"
 #include "shapes/analytic_shapes.h"
@@ -286,6 +287,7 @@ std::vector<CaseProblem> Checker::run() {
   grains();
   walls();
   touching_pairs();
+  check_effects(c_, found_);
   rest();
   return std::move(found_);
 }
@@ -315,6 +317,7 @@ std::string key_by_name(Case const& c, std::string const& key) {
   if (list == "material") name = name_at(c.material, index);
   if (list == "grains") name = name_at(c.grains, index);
   if (list == "wall") name = name_at(c.wall, index);
+  if (list == "force") name = name_at(c.force, index);
   return name.empty() ? key : list + "." + name + key.substr(second);
 }
 

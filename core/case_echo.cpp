@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include "core/case.h"
+#include "core/case_effects_text.h"
 #include "core/certificate_gate.h"
 
 namespace scree {
@@ -119,6 +120,7 @@ std::string to_toml(Case const& c) {
   std::string out = fmt::format("[case]\nname = {}\nseed = {}\n", quoted(c.name), c.seed);
   write_time(out, c.time);
   if (c.gravity) out += fmt::format("\n[gravity]\nacceleration = {}  # [m/s2]\n", vector(*c.gravity));
+  out += effects_to_toml(c);
   for (LibraryCase const& l : c.library)
     out += fmt::format("\n[[library]]\nname = {}\nfile = {}\n", quoted(l.name),
                        quoted(std::filesystem::absolute(l.file).string()));

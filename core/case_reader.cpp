@@ -168,6 +168,20 @@ bool CaseReader::quaternions(std::string const& key, std::vector<Quat>& out, Nee
   return true;
 }
 
+bool CaseReader::pairs(std::string const& key, std::vector<double>& first, std::vector<double>& second, Need need) {
+  CaseNode const* const node = present(key, need);
+  if (!node) return false;
+  if (node->kind != CaseNode::Kind::array) return wrong_type(key, *node, "a list of [a, b]");
+  std::vector<double> a, b;
+  for (CaseNode const& element : node->element) {
+    double v[2];
+    if (!numbers(key, element, 2, v, "a list of [a, b]")) return false;
+    a.push_back(v[0]), b.push_back(v[1]);
+  }
+  first = std::move(a), second = std::move(b);
+  return true;
+}
+
 int CaseReader::choice_index(std::string const& key, std::vector<std::string> const& words,
                              std::vector<std::string> const& later, Need need) {
   std::string word;

@@ -50,6 +50,9 @@ class CaseReader {
   bool vector(std::string const& key, Vec3& out, Need need = Need::optional);
   bool vectors(std::string const& key, std::vector<Vec3>& out, Need need = Need::optional);
   bool quaternions(std::string const& key, std::vector<Quat>& out, Need need = Need::optional);
+  // [[a, b], ...]: the first and the second numbers.
+  bool pairs(std::string const& key, std::vector<double>& first, std::vector<double>& second,
+             Need need = Need::optional);
 
   // A word out of `choices`; `later` are words of the format that this version does not support.
   template <class T>

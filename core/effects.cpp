@@ -22,8 +22,13 @@ Effects effects_of(Case const& c, Scene const& scene) {
   e.analytic_nodes = others && (any_sdf(SdfKind::analytic) || !scene.plane.empty());
   e.friction = any_contact([](ContactParameters const& p) { return p.friction > 0; });
   e.damping = any_contact([](ContactParameters const& p) { return p.damping_nodes > 0; });
-  e.gravity = c.gravity.has_value();
+  e.gravity = c.gravity && norm2(*c.gravity) > 0;
+  e.force = std::any_of(c.force.begin(), c.force.end(),
+                        [](ForceCase const& f) { return norm2(f.force) > 0 || norm2(f.torque) > 0; });
+  e.drag = c.drag && c.drag->density * c.drag->coefficient > 0;
+  e.global_damping = c.damping && c.damping->rate > 0;
   e.settle = c.time.settle.has_value();
+  e.settle_damping = e.settle && c.time.settle->damping > 0;
   return e;
 }
 
@@ -41,8 +46,11 @@ std::vector<std::string> stages_of(Effects const& e) {
   add(e.sphere_contacts, "sphere_contacts");
   add(e.node_contacts, "contact_reduce");
   add(e.gravity, "gravity");
+  add(e.force, "force");
   add(true, "integrate");
-  add(e.settle, "global_damping");
+  add(e.drag, "drag");
+  add(e.global_damping, "damping");
+  add(e.settle_damping, "global_damping");
   add(true, "watch");
   return stages;
 }
@@ -50,10 +58,21 @@ std::vector<std::string> stages_of(Effects const& e) {
 std::vector<std::string> names_of(Effects const& e) {
   std::vector<std::string> names;
   if (e.gravity) names.push_back("gravity");
+  if (e.force) names.push_back("force");
+  if (e.drag) names.push_back("drag");
+  if (e.global_damping) names.push_back("global damping");
   if (e.friction) names.push_back("friction");
   if (e.damping) names.push_back("damping");
   if (e.settle) names.push_back("settle");
   return names;
+}
+
+std::vector<std::string> ledger_columns_of(Effects const& e) {
+  std::vector<std::string> columns;
+  if (e.force) columns.push_back("applied");
+  if (e.drag) columns.push_back("drag");
+  if (e.global_damping || e.settle_damping) columns.push_back("global_damping");
+  return columns;
 }
 
 }  // namespace scree

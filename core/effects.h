@@ -22,7 +22,11 @@ struct Effects {
   bool friction = false;
   bool damping = false;
   bool gravity = false;
-  bool settle = false;  // global damping, switched by the settle schedule
+  bool force = false;  // applied forces or torques
+  bool drag = false;
+  bool global_damping = false;  // [damping], all the time
+  bool settle = false;          // the settle schedule ...
+  bool settle_damping = false;  // ... with a global damping that it switches
 };
 
 Effects effects_of(Case const& c, Scene const& scene);
@@ -32,5 +36,8 @@ std::vector<std::string> stages_of(Effects const& effects);
 
 // Effects by name, in the words of the case file.
 std::vector<std::string> names_of(Effects const& effects);
+
+// Columns of the ledger beyond those that every run has (core/results_layout.h).
+std::vector<std::string> ledger_columns_of(Effects const& effects);
 
 }  // namespace scree

@@ -26,10 +26,13 @@ LedgerRow make_ledger(Scene const& scene, std::optional<Vec3> gravity, State con
   row.damping = -sum(state.work_damping);
   row.friction = -sum(state.work_friction) - row.elastic_tangential;
   row.global_damping = sum(state.removed_by_damping);
-  row.residual = mechanical_energy(row) - state.initial_energy - row.inserted - row.wall_work + row.damping +
-                 row.friction + row.global_damping + row.removed;
+  row.drag = sum(state.removed_by_drag);
+  row.applied = sum(state.work_applied);
+  row.residual = mechanical_energy(row) - state.initial_energy - row.inserted - row.wall_work - row.applied +
+                 row.damping + row.friction + row.global_damping + row.drag + row.removed;
   row.moved = std::abs(row.damping) + std::abs(row.friction) + std::abs(row.global_damping) + std::abs(row.wall_work) +
-              std::abs(row.inserted) + std::abs(row.removed) + state.kinetic_peak;
+              std::abs(row.inserted) + std::abs(row.removed) + std::abs(row.drag) + std::abs(row.applied) +
+              state.kinetic_peak;
   return row;
 }
 

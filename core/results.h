@@ -27,7 +27,8 @@ struct ResultsHeader {
   std::vector<double> diameter;               // [m] (n)
   std::vector<int> material, group, replica;  // (n)
   std::vector<ResultsWall> wall;
-  Box domain;  // of walls and initial grains, for cameras [m]
+  Box domain;                       // of walls and initial grains, for cameras [m]
+  std::vector<std::string> ledger;  // columns beyond those of every run, see results_layout.h
 };
 
 struct Frame {
@@ -43,6 +44,9 @@ struct LedgerRow {  // [J]; see core/energy.h
   double time = 0, kinetic = 0, potential = 0, elastic_normal = 0, elastic_tangential = 0;
   double inserted = 0, wall_work = 0, damping = 0, friction = 0, global_damping = 0, removed = 0;
   double residual = 0, moved = 0;
+  // Only where the case has the effect.
+  double applied = 0;  // work of applied forces and torques
+  double drag = 0;     // lost to drag
 };
 
 struct StageRow {

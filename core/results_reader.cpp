@@ -79,6 +79,10 @@ ResultsHeader read_header(hid_t file) {
   auto const domain = as_vectors<Vec3>(read_array<double>(file, "domain", {3}));
   if (domain.size() != 2) throw std::runtime_error("dataset 'domain' must hold two corners");
   h.domain = {domain[0], domain[1]};
+  if (hdf5::has_dataset(file, "ledger_columns"))
+    h.ledger = results_hdf5::read_texts(file, "ledger_columns");
+  else
+    h.ledger.assign(results_layout::unnamed_columns.begin(), results_layout::unnamed_columns.end());
   return h;
 }
 
@@ -167,11 +171,11 @@ Frame ResultsReader::frame(int index) const {
 
 std::vector<LedgerRow> ResultsReader::ledger() const {
   return data_->guarded([&] {
-    std::size_t constexpr columns = results_layout::ledger.size();
-    std::vector<double> const flat = read_array<double>(data_->file, "ledger", {columns});
-    std::vector<LedgerRow> rows(flat.size() / columns);
+    std::vector<results_layout::LedgerColumn> const column = results_layout::columns_with(data_->header.ledger);
+    std::vector<double> const flat = read_array<double>(data_->file, "ledger", {column.size()});
+    std::vector<LedgerRow> rows(flat.size() / column.size());
     for (std::size_t r = 0; r < rows.size(); ++r)
-      for (std::size_t k = 0; k < columns; ++k) rows[r].*results_layout::ledger[k].value = flat[r * columns + k];
+      for (std::size_t k = 0; k < column.size(); ++k) rows[r].*column[k].value = flat[r * column.size() + k];
     return rows;
   });
 }

@@ -63,6 +63,9 @@ void write_header(hid_t file, ResultsHeader const& h, fs::path const& temporary)
   write_array(bodies, "replica", h.replica.data(), n);
   write_walls(file, h.wall);
   write_array(file, "domain", &h.domain.min.x, {2, 3});
+  std::vector<std::string> column;
+  for (results_layout::LedgerColumn const& c : results_layout::columns_with(h.ledger)) column.push_back(c.name);
+  write_texts(file, "ledger_columns", column);
 }
 
 void check_header(ResultsHeader const& h) {
@@ -78,13 +81,17 @@ void check_header(ResultsHeader const& h) {
 struct ResultsWriter::Data {
   fs::path final_name, temporary;
   std::size_t bodies = 0;
+  std::vector<results_layout::LedgerColumn> column;  // of the ledger
   hdf5::Handle file;
   hdf5::Handle frames;
   Series<double> time, position, orientation, velocity, spin, ledger;
   Series<std::int64_t> step;
 
   Data(fs::path const& name, ResultsHeader const& header)
-      : final_name(name), temporary(name.string() + ".partial"), bodies(header.shape.size()) {
+      : final_name(name),
+        temporary(name.string() + ".partial"),
+        bodies(header.shape.size()),
+        column(results_layout::columns_with(header.ledger)) {
     hsize_t const n = bodies;
     fs::remove(temporary);
     file = hdf5::create_file(temporary.string());
@@ -96,7 +103,7 @@ struct ResultsWriter::Data {
     orientation = {frames, "orientation", {n, 4}};
     velocity = {frames, "velocity", {n, 3}};
     spin = {frames, "spin", {n, 3}};
-    ledger = {file, "ledger", {results_layout::ledger.size()}};
+    ledger = {file, "ledger", {column.size()}};
     flush();
   }
 
@@ -153,8 +160,8 @@ void ResultsWriter::write_frame(Frame const& frame) {
 
 void ResultsWriter::write_ledger(LedgerRow const& row) {
   data_->guarded([&] {
-    std::array<double, results_layout::ledger.size()> value;
-    for (std::size_t i = 0; i < value.size(); ++i) value[i] = row.*results_layout::ledger[i].value;
+    std::vector<double> value;
+    for (results_layout::LedgerColumn const& c : data_->column) value.push_back(row.*c.value);
     data_->ledger.append(value.data());
   });
 }

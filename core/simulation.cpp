@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/effect_stages.h"
 #include "core/energy.h"
 #include "core/simulation_impl.h"
 #include "kernels/body_effects.h"
@@ -38,6 +39,8 @@ Simulation::Impl::Impl(Case const& c_, SimulationOptions const& options_, Frame 
     state.angular_momentum.push_back(r * multiply(scene.inertia[i], transposed_times(r, placement.spin[i])));
   }
   for (auto* v : {&state.work_damping, &state.work_friction, &state.removed_by_damping}) v->assign(n, 0);
+  if (effects.force) state.work_applied.assign(n, 0);
+  if (effects.drag) state.removed_by_drag.assign(n, 0);
   work.external.assign(n, {});
   if (effects.gravity) apply_gravity(queue, scene.view(), *c.gravity, work.external);
   // Free flight needs no small step, but output does: at least a hundred steps a run.
@@ -59,12 +62,17 @@ RunState Simulation::Impl::step() {
   if (run_state != RunState::running) return run_state;
   SceneView const view = scene.view();
   double const dt = state.time_step;
-  WorkView const work_done{state.work_damping, state.work_friction};
+  WorkView const work_done{state.work_damping, state.work_friction, state.work_applied};
+  brake_bodies(queue, c, effects, view, dt / 2, state);
+  if (effects.force) push_bodies(queue, c, scene, state.time, state.time + dt / 2, work);
   open_step(queue, view, state.view(), work.wrenches(state.wrench), dt, work_done);
   evaluate_contacts(queue, scene, effects, contacts, dt, state, work);
+  if (effects.force) push_bodies(queue, c, scene, state.time + dt / 2, state.time + dt, work);
   close_step(queue, view, state.view(), work.wrenches(state.wrench), dt, work_done);
-  if (state.damped)
-    apply_global_damping(queue, view, state.view(), c.time.settle->damping, dt, state.removed_by_damping);
+  if (state.damped && effects.settle_damping)
+    apply_global_damping(queue, "global_damping/bodies", view, state.view(), c.time.settle->damping, dt,
+                         state.removed_by_damping);
+  brake_bodies(queue, c, effects, view, dt / 2, state);
   state.time += dt;
   ++state.step;
   report = watch(queue, scene, state, gravity_size(), work);

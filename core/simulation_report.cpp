@@ -51,6 +51,8 @@ std::vector<Plan::Array> arrays_of(Simulation::Impl const& s) {
   add(s.effects.node_contacts, "node lists", bytes(s.work.gather.lists.node) + bytes(s.work.gather.lists.side));
   add(s.effects.friction, "contact history",
       bytes(s.state.node_history.xi) + bytes(s.state.node_history.node) + bytes(s.state.sphere_history.xi));
+  add(s.effects.force, "applied forces", bytes(s.work.applied) + bytes(s.state.work_applied));
+  add(s.effects.drag, "drag", bytes(s.state.removed_by_drag));
   return arrays;
 }
 
@@ -107,6 +109,7 @@ ResultsHeader Simulation::results_header() const {
   header.replica.assign(s.scene.bodies(), 0);
   for (PlaneRecord const& plane : s.scene.plane)
     header.wall.push_back({s.c.wall[plane.wall].name, plane.point, plane.normal});
+  header.ledger = ledger_columns_of(s.effects);
   Box& domain = header.domain;
   domain = {{1e300, 1e300, 1e300}, {-1e300, -1e300, -1e300}};
   for (int i = 0; i < s.scene.bodies(); ++i) {

@@ -18,6 +18,7 @@ struct State {
   NodeHistory node_history;
   SphereHistory sphere_history;
   std::vector<double> work_damping, work_friction, removed_by_damping;  // since the start [J] (n_bodies)
+  std::vector<double> work_applied, removed_by_drag;                    // ... (n_bodies), empty without the effect
   double time = 0, time_step = 0;                                       // [s]
   std::int64_t step = 0;
   // Settle schedule.
@@ -30,7 +31,8 @@ struct State {
 };
 
 struct Workspace {
-  std::vector<Wrench> external;  // constant during a run: gravity
+  std::vector<Wrench> external;              // constant during a run: gravity
+  std::vector<Wrench> group_force, applied;  // of [[force]]: (n_groups), (n_bodies), empty without one
   std::vector<Box> box;
   std::vector<double> skin;  // of the pair list [m] (n_bodies)
   std::vector<Vec3> built_position;
@@ -49,7 +51,7 @@ struct Workspace {
   std::vector<double> kinetic;  // [J] (n_bodies)
   std::int64_t pair_rebuilds = 0;
 
-  WrenchesView wrenches(BodyWrenches const& b) const { return {b.elastic, b.damping, b.friction, external}; }
+  WrenchesView wrenches(BodyWrenches const& b) const { return {b.elastic, b.damping, b.friction, external, applied}; }
 };
 
 }  // namespace scree

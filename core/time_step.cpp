@@ -32,6 +32,27 @@ double fall_height(Vec3 down, Scene const& scene, Placement const& placement) {
   return std::max(0.0, lowest - highest);
 }
 
+// Squared speed that the applied forces can give a grain on its way to the lowest wall or grain along them, at most
+// what their whole impulse gives [m2/s2].
+double speed2_of_forces(Case const& c, Scene const& scene, Placement const& placement) {
+  double speed2 = 0;
+  for (ForceCase const& f : c.force) {
+    if (!(norm2(f.force) > 0)) continue;
+    double strongest = 1;
+    for (double const factor : f.table.value) strongest = std::max(strongest, std::abs(factor));
+    double lightest = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < scene.bodies(); ++i)
+      if (c.grains[scene.group_of[i]].name == f.grains) lightest = std::min(lightest, scene.mass[i]);
+    double const a = strongest * norm(f.force) / lightest;
+    double const seconds = f.stop ? std::min(*f.stop, c.time.end) - f.start : c.time.end;
+    double const by_impulse = a * std::max(0.0, seconds);
+    Vec3 const along = normalized(f.force);
+    double const way = std::max(fall_height(along, scene, placement), fall_height(-along, scene, placement));
+    speed2 += std::min(by_impulse * by_impulse, 2 * a * way);
+  }
+  return speed2;
+}
+
 // Energy error a step may make as one node enters, in kinetic energies of its grain. Entering between two steps costs
 // about kappa A (v dt)^2 / 4 of either sign, so the share depends on kappa A dt^2 / m alone, not on the speed. Measured
 // (ellipsoids, 1,000 nodes): 6e-5 keeps an undamped collision to 1e-4. A scene that dissipates is held to the ledger's
@@ -56,10 +77,12 @@ StepEstimate estimate_critical_step(Case const& c, Scene const& scene, Placement
     double const r = scene.shape[scene.shape_of[i]].bounding_radius * scene.diameter[i];
     fastest = std::max(fastest, norm(placement.velocity[i]) + r * norm(placement.spin[i]));
   }
+  if (c.drag) fastest += norm(c.drag->fluid_velocity);
   // Two grains may meet head-on.
   double speed2 = 4 * fastest * fastest;
   if (c.gravity && norm(*c.gravity) > 0)
     speed2 += 2 * norm(*c.gravity) * fall_height(normalized(*c.gravity), scene, placement);
+  speed2 += speed2_of_forces(c, scene, placement);
   out.speed = std::sqrt(speed2);
   for (int i = 0; i < scene.bodies(); ++i) {
     Shape const shape = scene.template_shape(scene.shape_of[i]);

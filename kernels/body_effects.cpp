@@ -30,16 +30,51 @@ struct GlobalDamping {
   }
 };
 
+struct Drag {
+  SceneView scene;
+  StateView state;
+  DragParameters drag;
+  double dt;
+  Span<double> removed;
+
+  SCREE_HD void operator()(int i) const {
+    double constexpr quarter_pi = 0.78539816339744831;
+    double const m = scene.mass[i], d = scene.diameter[i];
+    double const k = 0.5 * drag.density * drag.coefficient * quarter_pi * d * d / m;
+    Vec3 const before = state.velocity[i], u = before - drag.fluid_velocity;
+    Vec3 const after = drag.fluid_velocity + u / (1 + k * norm(u) * dt);
+    state.velocity[i] = after;
+    removed[i] += 0.5 * m * dot(before - after, before + after);
+  }
+};
+
+struct GroupForce {
+  Span<const int> group_of;
+  Span<const Wrench> of_group;
+  Span<Wrench> applied;
+
+  SCREE_HD void operator()(int i) const { applied[i] = of_group[group_of[i]]; }
+};
+
 }  // namespace
 
 void apply_gravity(Queue const& queue, SceneView const& scene, Vec3 acceleration, Span<Wrench> external) {
   parallel_for(queue, "gravity/bodies", scene.bodies(), Gravity{scene, acceleration, external}, 1024);
 }
 
-void apply_global_damping(Queue const& queue, SceneView const& scene, StateView const& state, double rate, double dt,
-                          Span<double> removed) {
-  parallel_for(queue, "global_damping/bodies", scene.bodies(),
-               GlobalDamping{scene, state, std::exp(-rate * dt), removed}, 512);
+void apply_global_damping(Queue const& queue, char const* name, SceneView const& scene, StateView const& state,
+                          double rate, double dt, Span<double> removed) {
+  parallel_for(queue, name, scene.bodies(), GlobalDamping{scene, state, std::exp(-rate * dt), removed}, 512);
+}
+
+void apply_drag(Queue const& queue, SceneView const& scene, StateView const& state, DragParameters const& drag,
+                double dt, Span<double> removed) {
+  parallel_for(queue, "drag/bodies", scene.bodies(), Drag{scene, state, drag, dt, removed}, 1024);
+}
+
+void apply_group_forces(Queue const& queue, SceneView const& scene, Span<const int> group_of,
+                        Span<const Wrench> of_group, Span<Wrench> applied) {
+  parallel_for(queue, "force/bodies", scene.bodies(), GroupForce{group_of, of_group, applied}, 1024);
 }
 
 }  // namespace scree

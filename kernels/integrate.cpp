@@ -14,6 +14,7 @@ SCREE_HD void half_kick(SceneView const& scene, StateView const& state, Wrenches
   total += w.damping[i];
   total += w.friction[i];
   total += w.external[i];
+  if (!w.applied.empty()) total += w.applied[i];
   velocity = state.velocity[i] + total.force * (0.5 * dt / scene.mass[i]);
   angular_momentum = state.angular_momentum[i] + total.torque * (0.5 * dt);
 }
@@ -23,6 +24,8 @@ SCREE_HD void account(SceneView const& scene, StateView const& state, WrenchesVi
   Vec3 const spin = spin_of(to_matrix(state.orientation[i]), scene.inertia[i], half_angular_momentum);
   work.damping[i] += 0.5 * dt * (dot(w.damping[i].force, half_velocity) + dot(w.damping[i].torque, spin));
   work.friction[i] += 0.5 * dt * (dot(w.friction[i].force, half_velocity) + dot(w.friction[i].torque, spin));
+  if (!w.applied.empty())
+    work.applied[i] += 0.5 * dt * (dot(w.applied[i].force, half_velocity) + dot(w.applied[i].torque, spin));
 }
 
 struct OpenStep {

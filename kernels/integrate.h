@@ -12,12 +12,14 @@ namespace scree {
 // Wrenches of a step by kind, as the ledger needs them (n_bodies each).
 struct WrenchesView {
   Span<const Wrench> elastic, damping, friction, external;
+  Span<const Wrench> applied;  // empty: none
 };
 
 // Work done on each body since the start, by kind [J] (n_bodies each): half-step velocity times the mean of the old
 // and the new force, so that kinetic energy plus these close to second order in the step.
 struct WorkView {
   Span<double> damping, friction;
+  Span<double> applied;  // empty: none
 };
 
 // Half kick with the wrenches of step n, then drift over dt: leaves half-step velocities at the poses of step n + 1.

@@ -119,11 +119,13 @@ std::string ledger_table(LedgerRow const& r) {
   row("potential", r.potential);
   row("elastic, normal", r.elastic_normal);
   row("elastic, tangential", r.elastic_tangential);
-  row("brought in by insertion", r.inserted);
+  if (r.inserted != 0) row("brought in by insertion", r.inserted);
   row("work of walls", r.wall_work);
+  if (r.applied != 0) row("work of applied forces", r.applied);
   row("lost to contact damping", r.damping);
   row("lost to friction", r.friction);
-  row("lost to global damping", r.global_damping);
+  if (r.global_damping != 0) row("lost to global damping", r.global_damping);
+  if (r.drag != 0) row("lost to drag", r.drag);
   row("removed by the program", r.removed);
   row("not accounted for", r.residual);
   return out + fmt::format("  {:<44} {:>14.2e}\n", "not accounted for / energy moved",

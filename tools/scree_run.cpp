@@ -46,10 +46,11 @@ class Recorder {
   Recorder(OutputFolder const& folder, Case const& c, Simulation const& simulation)
       : results_(folder.file("results.h5"), simulation.results_header()),
         ledger_(folder.file("ledger.csv")),
+        column_(results_layout::columns_with(simulation.results_header().ledger)),
         every_(c.output.every) {
     write_text(folder.file("case.effective.toml"), to_toml(c));
     std::string header;
-    for (results_layout::LedgerColumn const& column : results_layout::ledger)
+    for (results_layout::LedgerColumn const& column : column_)
       header += fmt::format("{}{}", header.empty() ? "" : ",", column.name);
     ledger_ << header << "\n";
     if (c.output.paraview) {
@@ -81,7 +82,7 @@ class Recorder {
     results_.write_frame(frame);
     if (paraview_) paraview_->write_frame(frame);
     std::string line;
-    for (results_layout::LedgerColumn const& column : results_layout::ledger)
+    for (results_layout::LedgerColumn const& column : column_)
       line += fmt::format("{}{:.9g}", line.empty() ? "" : ",", row.*column.value);
     ledger_ << line << "\n" << std::flush;
     if (!ledger_) throw std::system_error(EIO, std::generic_category(), "ledger.csv: cannot be written");
@@ -91,6 +92,7 @@ class Recorder {
 
   ResultsWriter results_;
   std::ofstream ledger_;
+  std::vector<results_layout::LedgerColumn> column_;  // of the ledger
   std::optional<ParaviewWriter> paraview_;
   double every_;  // [s]
   int frames_ = 0;

@@ -254,6 +254,48 @@ TEST_F(CaseFile, UnsupportedKeysAreRefusedByName) {
              {"case.replicas: is not supported"});
 }
 
+TEST_F(CaseFile, EffectsOnBodies) {
+  std::string const text = std::string(minimal) +
+                           "[drag]\ndensity = 1.2\ncoefficient = 0.5\nfluid_velocity = [1, 0, 0]\n[damping]\nrate = "
+                           "0.25\n[[force]]\nname = \"push\"\ngrains = \"mix\"\nforce = [1, 2, 3]\nstart = 0.1\nstop = "
+                           "0.2\n[[force]]\nname = \"spin\"\ngrains = \"mix\"\ntorque = [0, 0, 1]\ntable = [[0, 1], "
+                           "[0.5, -2]]\n";
+  for (Case const& c : {load(text), load(to_toml(load(text)))}) {
+    EXPECT_EQ(c.drag->density, 1.2);
+    EXPECT_EQ(c.drag->coefficient, 0.5);
+    EXPECT_EQ(c.drag->fluid_velocity, (Vec3{1, 0, 0}));
+    EXPECT_EQ(c.damping->rate, 0.25);
+    ASSERT_EQ(c.force.size(), 2u);
+    EXPECT_EQ(c.force[0].force, (Vec3{1, 2, 3}));
+    EXPECT_EQ(c.force[0].start, 0.1);
+    EXPECT_EQ(c.force[0].stop, 0.2);
+    EXPECT_TRUE(c.force[0].table.empty());
+    EXPECT_EQ(c.force[1].torque, (Vec3{0, 0, 1}));
+    EXPECT_EQ(c.force[1].table, (TimeTable{{0, 0.5}, {1, -2}}));
+  }
+  EXPECT_EQ(load(text, {"force.push.force=[9, 0, 0]"}).force[0].force, (Vec3{9, 0, 0}));
+  Case const plain = load(minimal);
+  EXPECT_TRUE(!plain.drag && !plain.damping && plain.force.empty());
+}
+
+TEST_F(CaseFile, EffectsOnBodiesAreJudged) {
+  std::string const drag = std::string(minimal) + "[drag]\ndensity = 1.2\ncoefficient = 0.5\n";
+  expect_one(refused(drag, {"drag.coefficient=-1"}), {"drag.coefficient: -1", "drive the motion"});
+  expect_one(refused(drag, {"drag.density=nan"}), {"drag.density: nan", "must be >= 0"});
+  expect_one(refused(with(drag, "coefficient = 0.5\n", "")), {"drag.coefficient: is missing"});
+  expect_one(refused(minimal, {"damping.rate=-2"}), {"damping.rate: -2", "add energy"});
+  std::string const force = std::string(minimal) + "[[force]]\nname = \"push\"\ngrains = \"mix\"\nforce = [1, 0, 0]\n";
+  expect_one(refused(with(force, "grains = \"mix\"", "grains = \"mxi\"")),
+             {"force.push.grains: unknown grains 'mxi'", "did you mean 'mix'?"});
+  expect_one(refused(with(force, "force = [1, 0, 0]\n", "")), {"force.push.force: is missing"});
+  expect_one(refused(force, {"force.push.start=2", "force.push.stop=1"}), {"force.push.stop: 1 s must lie after"});
+  expect_one(refused(force, {"force.push.start=1", "force.push.table=[[0, 1]]"}), {"either a table or start"});
+  expect_one(refused(force, {"force.push.table=[[1, 1], [0, 1]]"}), {"times must ascend"});
+  expect_one(refused(force, {"force.push.table=[]"}), {"at least one [time, factor]"});
+  expect_one(refused(force + "[[force]]\nname = \"push\"\ngrains = \"mix\"\ntorque = [1, 0, 0]\n"),
+             {"'push' is used twice"});
+}
+
 TEST_F(CaseFile, TouchingMaterialsNeedALaw) {
   std::string const text = with(minimal, "[[contact]]", "[[material]]\nname = \"steel\"\ndensity = 7800\n[[contact]]");
   expect_one(refused(with(text, "normal = [0, 0, 1]\nmaterial = \"rock\"", "normal = [0, 0, 1]\nmaterial = \"steel\"")),

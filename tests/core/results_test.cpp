@@ -53,6 +53,7 @@ ResultsHeader header(int n) {
     h.replica.push_back(0);
   }
   h.wall = {{"floor", {0, 0, 1}, {0, 0, 1}}, {"side", {1, 2, 3}, {-1, 0, 0}}};
+  h.ledger = {"applied"};
   h.domain = {{-1, -2, -3}, {4, 5, 6}};
   return h;
 }
@@ -79,7 +80,7 @@ void expect_same(Frame const& a, Frame const& b) {
   EXPECT_EQ(a.spin, b.spin);
 }
 
-LedgerRow ledger_row(int k) { return {0.1 * k, 1.0 + k, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11e-20, 12.5}; }
+LedgerRow ledger_row(int k) { return {0.1 * k, 1.0 + k, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11e-20, 12.5, 2.25, 3.5}; }
 
 void write_all(fs::path const& file, int n, int frames) {
   ResultsWriter writer(file, header(n));
@@ -130,6 +131,8 @@ TEST_F(ResultsFile, WhatGoesInComesOut) {
   EXPECT_EQ(ledger[2].kinetic, 3);
   EXPECT_EQ(ledger[2].residual, 11e-20);
   EXPECT_EQ(ledger[2].moved, 12.5);
+  EXPECT_EQ(ledger[2].applied, 2.25);
+  EXPECT_EQ(ledger[2].drag, 0);  // the header names no such column
   std::vector<StageRow> const stages = reader.stages();
   ASSERT_EQ(stages.size(), 2u);
   EXPECT_EQ(stages[1].name, "sdf_net");
