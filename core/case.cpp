@@ -12,6 +12,7 @@
 #include "core/case_effects_text.h"
 #include "core/case_reader.h"
 #include "core/certificate_gate.h"
+#include "core/sampled_grains.h"
 
 namespace scree {
 namespace {
@@ -110,10 +111,36 @@ void read_insert(CaseReader r, InsertCase& out) {
   r.finish();
 }
 
+void read_sample(CaseReader r, SampleCase& out) {
+  r.text("library", out.library, Need::required);
+  r.text("category", out.category, Need::required);
+  r.number("truncate", out.truncate);
+  for (FormScreen const& s : form_screens()) r.interval(s.key, (out.*s.wanted).low, (out.*s.wanted).high);
+  r.finish();
+}
+
+void read_interpolate(CaseReader r, InterpolateCase& out) {
+  r.text("library", out.library, Need::required);
+  r.text("from", out.from, Need::required);
+  r.text("to", out.to, Need::required);
+  CaseNode const* const t = r.present("t", Need::required);
+  if (t && t->kind == CaseNode::Kind::string) {
+    out.random = t->text == "random";
+    if (!out.random) r.report("t", fmt::format("'{}' is unknown; write a number, [low, high] or \"random\"", t->text));
+  } else if (t && t->kind == CaseNode::Kind::array) {
+    r.interval("t", out.low, out.high);
+  } else if (t && r.number("t", out.low)) {
+    out.high = out.low;
+  }
+  r.finish();
+}
+
 void read_grains(CaseReader r, GrainsCase& out) {
   r.text("name", out.name, Need::required);
   r.text("material", out.material, Need::required);
-  r.texts("shapes", out.shapes, Need::required);
+  r.texts("shapes", out.shapes);
+  if (auto sample = r.table("sample")) read_sample(*sample, out.sample.emplace());
+  if (auto interpolate = r.table("interpolate")) read_interpolate(*interpolate, out.interpolate.emplace());
   r.choice<Evaluator>("evaluator", out.evaluator,
                       {{"net", Evaluator::net},
                        {"grid", Evaluator::grid},
@@ -139,7 +166,7 @@ void read_grains(CaseReader r, GrainsCase& out) {
   bool const listed = insert && out.insert.kind == InsertCase::Kind::list;
   if (!r.integer("count", out.count, listed ? Need::optional : Need::required) && listed)
     out.count = static_cast<int>(out.insert.position.size());
-  r.unsupported({"sample", "replicas", "group"});
+  r.unsupported({"replicas", "group"});
   r.finish();
 }
 
@@ -177,18 +204,7 @@ void read_checkpoint(CaseReader r, CheckpointCase& out) {
 
 void read_limits(CaseReader r, LimitsCase& out) {
   r.number("overlap", out.overlap);
-  if (CaseNode const* const node = r.present("gradient")) {
-    bool const two_numbers = node->kind == CaseNode::Kind::array && node->element.size() == 2 &&
-                             std::all_of(node->element.begin(), node->element.end(), [](CaseNode const& n) {
-                               return n.kind == CaseNode::Kind::integer || n.kind == CaseNode::Kind::real;
-                             });
-    if (two_numbers) {
-      out.gradient_low = node->element[0].real;
-      out.gradient_high = node->element[1].real;
-    } else {
-      r.report("gradient", "must be two numbers [low, high]");
-    }
-  }
+  r.interval("gradient", out.gradient_low, out.gradient_high);
   r.number("ledger", out.ledger);
   for (CertificateLimit const& l : certificate_limits()) r.number(l.name, out.*l.limit);
   r.finish();

@@ -14,6 +14,7 @@
 #include "core/case_effects.h"
 #include "kernels/base/vec.h"
 #include "shapes/bake.h"
+#include "shapes/generate.h"
 
 namespace scree {
 
@@ -84,6 +85,22 @@ struct InsertCase {
   std::vector<Quat> quaternion;  // list: as many as positions, or empty
 };
 
+// Grains that never existed, each with a code of its own drawn from those of a category (shapes/generate.h).
+struct SampleCase {
+  std::string library, category;
+  double truncate = 2;                                              // of the Gaussian [standard deviations]
+  Interval sphericity, convexity, elongation, flatness, roundness;  // what a grain has to be; unbounded: anything
+  bool operator==(SampleCase const&) const = default;
+};
+
+// Grains on the line between the codes of two shapes of a library.
+struct InterpolateCase {
+  std::string library, from, to;  // shapes at t = 0 and t = 1
+  double low = 0, high = 1;       // of t: evenly over the grains, equal: all grains alike
+  bool random = false;            // t drawn uniformly from [low, high] instead
+  bool operator==(InterpolateCase const&) const = default;
+};
+
 struct GrainsCase {
   std::string name, material;
   std::vector<std::string>
@@ -97,6 +114,8 @@ struct GrainsCase {
   int grid_cells = default_grid_cells;  // evaluator grid: cells across the bounding diameter
   int mesh_cells = default_mesh_cells;  // evaluator mesh, unless the shape is stored as one: the same
   NodeStorage storage = NodeStorage::explicit_;
+  std::optional<SampleCase> sample{};            // exactly one of shapes, ...
+  std::optional<InterpolateCase> interpolate{};  // ... sample and interpolate
 };
 
 struct WallCase {

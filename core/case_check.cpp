@@ -14,6 +14,7 @@
 #include "core/case_effects_text.h"
 #include "core/certificate_gate.h"
 #include "core/nearest_name.h"
+#include "core/sampled_grains.h"
 #include "shapes/analytic_shapes.h"
 
 namespace scree {
@@ -43,6 +44,7 @@ class Checker {
   void contacts();
   void touching_pairs();
   void shapes(std::string const& key, GrainsCase const& g);
+  void made_shapes(std::string const& key, GrainsCase const& g);
   void insertion(std::string const& key, GrainsCase const& g);
   void grains();
   void walls();
@@ -161,7 +163,12 @@ void Checker::touching_pairs() {
 }
 
 void Checker::shapes(std::string const& key, GrainsCase const& g) {
-  if (g.shapes.empty()) fail(key + ".shapes", "must name at least one shape, e.g. \"sphere\" or \"grains:ballast/*\"");
+  bool const made = g.sample || g.interpolate;
+  if (g.shapes.empty() && !made)
+    fail(
+        key + ".shapes",
+        "must name at least one shape, e.g. \"sphere\" or \"grains:ballast/*\"; or give sample or interpolate instead");
+  if (made) made_shapes(key, g);
   for (std::string const& shape : g.shapes) {
     std::size_t const colon = shape.find(':');
     if (is_builtin_shape(shape)) {
@@ -181,6 +188,42 @@ void Checker::shapes(std::string const& key, GrainsCase const& g) {
                                         "superellipsoid:a:b:c:exponent, box:a:b:c",
                                         shape, did_you_mean(shape.substr(0, colon), words)));
     }
+  }
+}
+
+// Shapes made for the case: whether any can be made is seen when the library is read.
+void Checker::made_shapes(std::string const& key, GrainsCase const& g) {
+  char const* const word = g.sample ? "sample" : "interpolate";
+  std::string const at = key + "." + word;
+  if (!g.shapes.empty() || (g.sample && g.interpolate))
+    fail(at, fmt::format("has no meaning beside {}: give exactly one of shapes, sample and interpolate",
+                         g.shapes.empty() ? "interpolate" : "shapes"));
+  if (g.evaluator == Evaluator::analytic)
+    fail(key + ".evaluator", fmt::format("\"analytic\" needs formulas, {} makes networks: use \"net\", \"grid\" or "
+                                         "\"mesh\"",
+                                         word));
+  if (g.storage == NodeStorage::compact && g.evaluator != Evaluator::net)
+    fail(key + ".storage",
+         "\"compact\" is for shapes run as networks: use evaluator = \"net\" or storage = \"explicit\"");
+  if (g.sample) {
+    SampleCase const& s = *g.sample;
+    known(at + ".library", s.library, library_, "library");
+    range(at + ".truncate", s.truncate, 0, false, infinity, "standard deviations at which the Gaussian is cut");
+    for (FormScreen const& f : form_screens()) {
+      Interval const& i = s.*f.wanted;
+      if (!(i.low <= i.high))
+        fail(fmt::format("{}.{}", at, f.key),
+             fmt::format("[{}, {}] is empty: low must not exceed high", i.low, i.high));
+      else if (i.high < 0 || i.low > 1)
+        fail(fmt::format("{}.{}", at, f.key),
+             fmt::format("[{}, {}] holds no grain: {} lies between 0 and 1", i.low, i.high, f.meaning));
+    }
+  }
+  if (g.interpolate) {
+    InterpolateCase const& i = *g.interpolate;
+    known(at + ".library", i.library, library_, "library");
+    for (double t : {i.low, i.high}) range(at + ".t", t, 0, true, 1, "0 is the shape `from`, 1 the shape `to`");
+    if (i.low > i.high) fail(at + ".t", fmt::format("[{}, {}] is empty: low must not exceed high", i.low, i.high));
   }
 }
 

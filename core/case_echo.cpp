@@ -6,6 +6,7 @@
 #include "core/case.h"
 #include "core/case_effects_text.h"
 #include "core/certificate_gate.h"
+#include "core/sampled_grains.h"
 
 namespace scree {
 namespace {
@@ -84,9 +85,27 @@ void write_contact(std::string& out, ContactCase const& c) {
   if (c.restitution) out += fmt::format("damping = {{ restitution = {} }}\n", *c.restitution);
 }
 
+std::string sample_keys(SampleCase const& s) {
+  std::string out = fmt::format("sample = {{ library = {}, category = {}, truncate = {}", quoted(s.library),
+                                quoted(s.category), s.truncate);
+  for (FormScreen const& f : form_screens())
+    if (Interval const& i = s.*f.wanted; i.low > Interval{}.low || i.high < Interval{}.high)
+      out += fmt::format(", {} = [{}, {}]", f.key, i.low, i.high);
+  return out + " }\n";
+}
+
+std::string interpolate_keys(InterpolateCase const& i) {
+  std::string const t = i.random ? "\"random\"" : fmt::format("[{}, {}]", i.low, i.high);
+  return fmt::format("interpolate = {{ library = {}, from = {}, to = {}, t = {} }}\n", quoted(i.library),
+                     quoted(i.from), quoted(i.to), t);
+}
+
 void write_grains(std::string& out, GrainsCase const& g) {
-  out += fmt::format("\n[[grains]]\nname = {}\nmaterial = {}\nshapes = {}\nevaluator = \"{}\"\n", quoted(g.name),
-                     quoted(g.material), quoted_list(g.shapes), to_string(g.evaluator));
+  out += fmt::format("\n[[grains]]\nname = {}\nmaterial = {}\n", quoted(g.name), quoted(g.material));
+  if (!g.shapes.empty()) out += fmt::format("shapes = {}\n", quoted_list(g.shapes));
+  if (g.sample) out += sample_keys(*g.sample);
+  if (g.interpolate) out += interpolate_keys(*g.interpolate);
+  out += fmt::format("evaluator = \"{}\"\n", to_string(g.evaluator));
   if (g.evaluator == Evaluator::grid) out += fmt::format("grid_cells = {}\n", g.grid_cells);
   if (g.evaluator == Evaluator::mesh) out += fmt::format("mesh_cells = {}\n", g.mesh_cells);
   out += fmt::format("nodes = {}\nstorage = \"{}\"\ncount = {}\ndiameter = {}  # [m]\n", g.nodes,

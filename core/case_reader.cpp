@@ -140,6 +140,14 @@ bool CaseReader::vector(std::string const& key, Vec3& out, Need need) {
   return true;
 }
 
+bool CaseReader::interval(std::string const& key, double& low, double& high, Need need) {
+  CaseNode const* const node = present(key, need);
+  double v[2];
+  if (!node || !numbers(key, *node, 2, v, "two numbers [low, high]")) return false;
+  low = v[0], high = v[1];
+  return true;
+}
+
 bool CaseReader::vectors(std::string const& key, std::vector<Vec3>& out, Need need) {
   CaseNode const* const node = present(key, need);
   if (!node) return false;

@@ -48,6 +48,7 @@ class CaseReader {
   bool text(std::string const& key, std::string& out, Need need = Need::optional);
   bool texts(std::string const& key, std::vector<std::string>& out, Need need = Need::optional);
   bool vector(std::string const& key, Vec3& out, Need need = Need::optional);
+  bool interval(std::string const& key, double& low, double& high, Need need = Need::optional);  // [low, high]
   bool vectors(std::string const& key, std::vector<Vec3>& out, Need need = Need::optional);
   bool quaternions(std::string const& key, std::vector<Quat>& out, Need need = Need::optional);
   // [[a, b], ...]: the first and the second numbers.

@@ -4,20 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 #include <utility>
 
 namespace scree {
 namespace {
-
-// Uniform in [0, 1) from the top 53 bits: std::uniform_real_distribution differs between standard libraries.
-double uniform(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
-
-// Streams of one seed that do not depend on how much another one draws.
-std::mt19937_64 stream(std::uint64_t seed, std::uint64_t group, std::uint64_t purpose) {
-  std::seed_seq sequence{seed, seed >> 32, group, purpose};
-  return std::mt19937_64(sequence);
-}
 
 // Uniform rotation (Shoemake 1992).
 Quat random_orientation(std::mt19937_64& random) {
@@ -61,11 +51,16 @@ Lattice lattice_for(Case const& c, Scene const& scene, Box const& box) {
 
 }  // namespace
 
+std::mt19937_64 random_stream(std::uint64_t seed, int group, Draw purpose) {
+  std::seed_seq sequence{seed, seed >> 32, static_cast<std::uint64_t>(group), static_cast<std::uint64_t>(purpose)};
+  return std::mt19937_64(sequence);
+}
+
 std::vector<int> assign_shapes(Case const& c, int group, std::vector<int> const& templates) {
   int const n = c.grains[group].count;
   std::vector<int> shape(n);
   for (int i = 0; i < n; ++i) shape[i] = templates[i % templates.size()];
-  std::mt19937_64 random = stream(c.seed, group, 1);
+  std::mt19937_64 random = random_stream(c.seed, group, Draw::shapes);
   for (int i = n - 1; i > 0; --i) std::swap(shape[i], shape[static_cast<int>(uniform(random) * (i + 1))]);
   return shape;
 }
@@ -76,7 +71,7 @@ Placement place_grains(Case const& c, Scene const& scene, std::vector<std::strin
   int body = 0;
   for (std::size_t g = 0; g < c.grains.size(); ++g) {
     InsertCase const& insert = c.grains[g].insert;
-    std::mt19937_64 random = stream(c.seed, g, 2);
+    std::mt19937_64 random = random_stream(c.seed, static_cast<int>(g), Draw::poses);
     Lattice* lattice = nullptr;
     if (insert.kind == InsertCase::Kind::lattice && c.grains[g].count > 0) {
       auto at =

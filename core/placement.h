@@ -2,12 +2,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+#include <random>
 #include <string>
 #include <vector>
 
 #include "core/scene.h"
 
 namespace scree {
+
+// Random numbers of entry `group` for one purpose: streams of a seed that do not depend on how much another one draws.
+enum class Draw : std::uint64_t { shapes = 1, poses = 2, codes = 3 };
+std::mt19937_64 random_stream(std::uint64_t seed, int group, Draw purpose);
+
+// Uniform in [0, 1) from the top 53 bits: std::uniform_real_distribution differs between standard libraries.
+inline double uniform(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
 
 // Template of each grain of entry `group`: equal shares of `templates`, shuffled with the case's seed.
 std::vector<int> assign_shapes(Case const& c, int group, std::vector<int> const& templates);

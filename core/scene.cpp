@@ -137,7 +137,11 @@ Scene build_scene(Case const& c, int threads, Placement& placement) {
   std::vector<std::vector<int>> templates;
   for (GrainsCase const& grains : c.grains) templates.push_back(catalogue.templates_for(grains, scene, found));
   if (!found.empty()) throw InputError(found);
-  catalogue.finish(scene, threads, found);
+  for (std::size_t g = 0; g < c.grains.size(); ++g)
+    if (c.grains[g].sample || c.grains[g].interpolate)
+      templates[g] = catalogue.make_templates(c, static_cast<int>(g), scene, threads, found);
+  if (!found.empty()) throw InputError(found);
+  catalogue.finish(scene, templates, threads, found);
   add_bodies(c, templates, scene);
   placement = place_grains(c, scene, found);
   if (!found.empty()) throw InputError(found);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/unique_grains.h"
 #include "shapes/bake_cache.h"
 
 namespace scree {
@@ -40,13 +41,8 @@ ShapeRecord record_of(Shape const& shape) {
 }
 
 int SceneEvaluators::place_net(int library, int net) {
-  auto const [at, fresh] = net_.emplace(std::pair{library, net}, static_cast<int>(scene_.networks.net.size()));
-  if (fresh) {
-    Mlp const& mlp = libraries_[library].net[net];
-    scene_.library.net.push_back(mlp);
-    scene_.networks.net.emplace_back(mlp);
-    scene_.networks.bias_rows.emplace_back();
-  }
+  auto const [at, fresh] = net_.emplace(std::pair{library, net}, -1);
+  if (fresh) at->second = scene_network(scene_, libraries_[library].net[net]);  // entries may share a decoder
   return at->second;
 }
 

@@ -11,6 +11,7 @@
 
 #include "core/certificate_gate.h"
 #include "core/nearest_name.h"
+#include "core/sampled_grains.h"
 #include "core/scene_evaluators.h"
 #include "core/unique_grains.h"
 #include "shapes/analytic_shapes.h"
@@ -53,7 +54,7 @@ int ShapeCatalogue::add(Key const& key, Scene& scene) {
 int ShapeCatalogue::loose_shape(std::string const& word) {
   auto const [at, fresh] = loose_.try_emplace(word, 0);
   if (!fresh) return at->second;
-  Library& own = libraries_.back();
+  Library& own = libraries_[names_.size()];
   try {
     if (std::filesystem::path const file = mesh_file_of(word); !file.empty()) {
       try {
@@ -97,7 +98,7 @@ void ShapeCatalogue::choose_evaluator(GrainsCase const& grains, std::string cons
 std::vector<int> ShapeCatalogue::templates_for(GrainsCase const& grains, Scene& scene,
                                                std::vector<std::string>& found) {
   std::vector<int> chosen;
-  int const loose = static_cast<int>(libraries_.size()) - 1;
+  int const loose = static_cast<int>(names_.size());
   for (std::string const& word : grains.shapes) {
     if (is_builtin_shape(word) || !mesh_file_of(word).empty()) {
       try {
@@ -112,27 +113,97 @@ std::vector<int> ShapeCatalogue::templates_for(GrainsCase const& grains, Scene& 
     std::size_t const colon = word.find(':');
     std::string const library = word.substr(0, colon),
                       pattern = colon == std::string::npos ? "" : word.substr(colon + 1);
-    auto const entry = std::find_if(names_.begin(), names_.end(), [&](auto const& n) { return n.name == library; });
-    if (entry == names_.end()) {
+    int const index = library_called(library);
+    if (index < 0) {
       found.push_back("grains '" + grains.name + "': shape '" + word + "': no [[library]] is called '" + library + "'");
       continue;
     }
-    int const index = static_cast<int>(entry - names_.begin());
     Library const& from = libraries_[index];
     std::size_t const before = chosen.size();
     std::vector<std::string> known;
     for (std::size_t s = 0; s < from.shape.size(); ++s) {
       known.push_back(from.shape[s].name);
       if (fnmatch(pattern.c_str(), from.shape[s].name.c_str(), 0) != 0) continue;
-      for (std::string& problem : gate_problems(from.shape[s], entry->file, limits_)) found.push_back(problem);
+      for (std::string& problem : gate_problems(from.shape[s], names_[index].file, limits_)) found.push_back(problem);
       Key key{index, static_cast<int>(s), grains.nodes};
       choose_evaluator(grains, from.shape[s].name, key, found);
       chosen.push_back(add(key, scene));
     }
     if (chosen.size() == before && !from.shape.empty())
       found.push_back("grains '" + grains.name + "': shape '" + word + "' matches nothing in " +
-                      entry->file.filename().string() + did_you_mean(pattern, known));
+                      names_[index].file.filename().string() + did_you_mean(pattern, known));
   }
+  return chosen;
+}
+
+int ShapeCatalogue::library_called(std::string const& name) const {
+  auto const entry = std::find_if(names_.begin(), names_.end(), [&](auto const& n) { return n.name == name; });
+  return entry == names_.end() ? -1 : static_cast<int>(entry - names_.begin());
+}
+
+bool ShapeCatalogue::taken(std::string const& prefix, Scene const& scene) const {
+  return std::any_of(scene.library.shape.begin(), scene.library.shape.end(),
+                     [&](Shape const& s) { return s.name.starts_with(prefix); }) ||
+         std::any_of(unique_.begin(), unique_.end(), [&](Unique const& u) { return u.prefix == prefix; });
+}
+
+// Which shapes rays from the centre describe. The grains are made again in finish(): 3 ms beside the 500 of a draw.
+std::vector<char> ShapeCatalogue::star_shaped(CompactGrainMaker const& maker, std::vector<Shape> const& shape,
+                                              int threads) const {
+  std::vector<char> yes(shape.size());
+#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
+  for (std::size_t i = 0; i < shape.size(); ++i) {
+    CompactGrain grain;
+    yes[i] = maker.make(shape[i].code, grain) == GrainFault::none;
+  }
+  return yes;
+}
+
+std::vector<int> ShapeCatalogue::make_templates(Case const& c, int group, Scene& scene, int threads,
+                                                std::vector<std::string>& found) {
+  GrainsCase const& grains = c.grains[group];
+  int const from = library_called(grains.sample ? grains.sample->library : grains.interpolate->library);
+  MadeShapes made;
+  try {
+    made = make_shapes(libraries_[from], grains, limits_, c.seed, group, threads);
+  } catch (std::invalid_argument const& e) {
+    found.push_back(fmt::format("grains '{}': {}: {}", grains.name, names_[from].file.filename().string(), e.what()));
+  }
+  if (made.shape.empty()) return {};
+  if (auto problem = gate_problems(made.shape[0], names_[from].file, limits_); !problem.empty())
+    found.insert(found.end(), problem.begin(), problem.end());
+  scene.notes.push_back(made.note);
+  std::string prefix = made_category(grains) + "/";
+  for (int n = 2; taken(prefix, scene); ++n) prefix = fmt::format("{} #{}/", made_category(grains), n);
+
+  std::vector<char> compact(made.shape.size(), 0);
+  if (grains.storage == NodeStorage::compact) {
+    int const net = made.shape[0].net;
+    if (!makers_) makers_.emplace(libraries_, scene);
+    unique_.push_back({prefix, from, net, grains.nodes, {}});
+    compact = star_shaped(*makers_->get(from, net, grains.nodes).maker, made.shape, threads);
+    prefix += "array/";  // of those that keep arrays: unique grains count for themselves
+  }
+  std::vector<int> chosen;
+  int const own = static_cast<int>(libraries_.size());
+  libraries_.push_back({libraries_[from].net, {}, {}, {}, {}});
+  for (std::size_t i = 0; i < made.shape.size(); ++i) {
+    Shape& shape = made.shape[i];
+    if (compact[i]) {
+      unique_.back().code.insert(unique_.back().code.end(), shape.code.begin(), shape.code.end());
+      chosen.push_back(-1 - unique_count_++);
+      continue;
+    }
+    shape.name = prefix + std::to_string(libraries_[own].shape.size());
+    libraries_[own].shape.push_back(std::move(shape));
+    Key key{own, static_cast<int>(libraries_[own].shape.size()) - 1, grains.nodes};
+    choose_evaluator(grains, libraries_[own].shape.back().name, key, found);
+    key.compact = false;
+    chosen.push_back(add(key, scene));
+  }
+  if (std::size_t const arrays = libraries_[own].shape.size(); grains.storage == NodeStorage::compact && arrays > 0)
+    scene.notes.push_back(fmt::format("grains '{}': {} of {} are kept as arrays of nodes, not compact: {}", grains.name,
+                                      arrays, made.shape.size(), to_string(GrainFault::not_star_shaped)));
   return chosen;
 }
 
@@ -154,7 +225,8 @@ void append_nodes(SurfaceNodes const& nodes, ShapeRecord& record, Scene& scene) 
 
 }  // namespace
 
-void ShapeCatalogue::finish(Scene& scene, int threads, std::vector<std::string>& found) {
+void ShapeCatalogue::finish(Scene& scene, std::vector<std::vector<int>>& templates, int threads,
+                            std::vector<std::string>& found) {
   SceneEvaluators evaluators(libraries_, scene, threads);
   for (std::size_t i = 0; i < keys_.size(); ++i) {
     Shape& shape = scene.library.shape[i];
@@ -168,17 +240,17 @@ void ShapeCatalogue::finish(Scene& scene, int threads, std::vector<std::string>&
   }
   // 16-bit radii along shared directions, and the frame that belongs to them; bodies that rays cannot describe keep
   // arrays.
-  CompactMakers makers(libraries_, scene);
+  if (!makers_) makers_.emplace(libraries_, scene);
   std::vector<CompactMakers::Entry const*> maker(keys_.size(), nullptr);
   for (std::size_t i = 0; i < keys_.size(); ++i) {
     Key const& key = keys_[i];
     if (key.compact && key.evaluated == ShapeKind::net)
-      maker[i] = &makers.get(key.library, libraries_[key.library].shape[key.shape].net, key.nodes);
+      maker[i] = &makers_->get(key.library, libraries_[key.library].shape[key.shape].net, key.nodes);
   }
   std::vector<CompactGrain> compact(keys_.size());
   std::vector<GrainFault> fault(keys_.size(), GrainFault::no_surface);
-  bool const only_spheres =
-      std::all_of(scene.shape.begin(), scene.shape.end(), [](ShapeRecord const& r) { return r.closed_form_sphere; });
+  bool const only_spheres = unique_.empty() && std::all_of(scene.shape.begin(), scene.shape.end(),
+                                                           [](ShapeRecord const& r) { return r.closed_form_sphere; });
   // Node sets are independent of each other and of the thread that makes them.
   std::vector<SurfaceNodes> nodes(keys_.size());
   std::vector<std::string> errors(keys_.size());
@@ -212,6 +284,12 @@ void ShapeCatalogue::finish(Scene& scene, int threads, std::vector<std::string>&
     record.bounding_radius = framed.bounding_radius, record.box = framed.box, record.lipschitz = framed.lipschitz;
     scene.compact.append(compact[i], maker[i]->set, record);
   }
+  for (Unique const& u : unique_)
+    add_unique_grains(scene, *makers_->get(u.library, u.net, u.nodes).maker,
+                      scene_network(scene, libraries_[u.library].net[u.net]), u.code, u.prefix, threads);
+  for (std::vector<int>& entry : templates)
+    for (int& t : entry)
+      if (t < 0) t = static_cast<int>(keys_.size()) - 1 - t;
 }
 
 }  // namespace scree

@@ -21,7 +21,6 @@ Simulation::Impl::Impl(Case const& c_, SimulationOptions const& options_, Frame 
   queue.profile = &profile;
   Placement placement;
   scene = build_scene(c, queue.threads, placement);
-  messages = scene.notes;
   effects = effects_of(c, scene);
   contacts.brute_force = options.brute_force;
   int const n = scene.bodies();

@@ -74,7 +74,8 @@ Plan Simulation::plan() const {
   for (ShapeRecord const& shape : s.scene.shape) plan.nodes_max = std::max(plan.nodes_max, shape.nodes);
   plan.step = s.state.time_step;
   plan.steps = static_cast<std::int64_t>(std::ceil(s.c.time.end / s.state.time_step));
-  plan.notes = limits_set(s.c.limits);
+  plan.notes = s.scene.notes;
+  for (std::string const& line : limits_set(s.c.limits)) plan.notes.push_back(line);
   if (CompactBytes const b = compact_bytes(s.scene); b.grains > 0)
     plan.notes.push_back(fmt::format(
         "{} compact grains of {} bytes each: nodes {}, culling {}, folded bias {}, records {}, code and mass {}",

@@ -19,6 +19,7 @@ namespace {
 
 int constexpr check_points = 2000;  // gradients and interior: percentiles to a few per cent of their spread
 int constexpr lipschitz_samples = 20000;
+int constexpr hopeless_after = 200;
 
 // Streams of one seed for every try (Steele et al. 2014, splitmix64's finaliser).
 std::uint64_t stream_seed(std::uint64_t seed, int attempt) {
@@ -153,12 +154,16 @@ Generation sample_shapes(Library const& library, SampleOptions const& options) {
   Generation made;
   made.gaussian = fit_codes(library, options.category, options.shrinkage);
   CodeFrame const frame = code_frame(library, made.gaussian.net);
-  int const limit = options.max_tries > 0 ? options.max_tries : std::max(200, 50 * options.count);
+  // Where none of the first tries passes, thousands more would only take time.
+  auto const limit = [&] {
+    if (options.max_tries > 0) return options.max_tries;
+    return made.accepted.empty() ? hopeless_after : std::max(hopeless_after, 50 * options.count);
+  };
   std::string const prefix = options.prefix.empty() ? options.category + "/" : options.prefix;
-  while (static_cast<int>(made.accepted.size()) < options.count && made.tries < limit) {
+  while (static_cast<int>(made.accepted.size()) < options.count && made.tries < limit()) {
     // Tries between two looks at what has passed; any number gives the same shapes.
     int const missing = options.count - static_cast<int>(made.accepted.size());
-    int const first = made.tries, n = std::min(std::max(std::min(missing, 64), options.threads), limit - first);
+    int const first = made.tries, n = std::min(std::max(std::min(missing, 64), options.threads), limit() - first);
     std::vector<Candidate> candidate(n);
     for_each(n, options.threads, [&](int i) {
       Random random(stream_seed(options.seed, first + i));

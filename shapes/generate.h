@@ -17,6 +17,7 @@ namespace scree {
 struct Interval {
   double low = -std::numeric_limits<double>::infinity(), high = std::numeric_limits<double>::infinity();
   bool contains(double x) const { return x >= low && x <= high; }
+  bool operator==(Interval const&) const = default;
 };
 
 // What a generated shape has to be. The first group is the gate and always on, the second the screening by form.
@@ -77,7 +78,7 @@ struct SampleOptions {
   double shrinkage = 0;  // fit_codes
   std::uint64_t seed = 1;
   ShapeLimits limits;
-  int max_tries = 0;   // 0: 50 times count, and at least 200
+  int max_tries = 0;   // 0: 50 times count, and at least 200; but 200 when none of those passes
   std::string prefix;  // of the shapes' names: prefix + "0", ...; empty: "<category>/"
   int threads = 1;
 };

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
 
@@ -141,6 +142,46 @@ TEST_F(CaseFile, MeshFilesAreLookedForBesideTheCase) {
              {"library.mesh.name", "choose another name"});
 }
 
+TEST_F(CaseFile, ShapesMadeForTheCase) {
+  write("", "grains.h5");
+  std::string const text = std::string(minimal) + "[[library]]\nname = \"grains\"\nfile = \"grains.h5\"\n";
+  auto const instead = [&](std::string const& keys) { return with(text, "shapes = [\"sphere\"]", keys); };
+  std::string const sample = "sample = { library = \"grains\", category = \"ballast\" }";
+  std::string const line = "interpolate = { library = \"grains\", from = \"a/0\", to = \"b/1\", t = 0.25 }";
+  Case const c = load(instead(with(sample, " }", ", truncate = 1.5, flatness = [0.25, 1.0] }")));
+  SampleCase expected{"grains", "ballast", 1.5, {}, {}, {}, {0.25, 1}, {}};
+  EXPECT_EQ(c.grains.at(0).sample, expected);
+  EXPECT_FALSE(c.grains[0].interpolate.has_value());
+  EXPECT_TRUE(c.grains[0].shapes.empty());
+  InterpolateCase between{"grains", "a/0", "b/1", 0.25, 0.25};
+  EXPECT_EQ(load(instead(line)).grains.at(0).interpolate, between);
+  between = {"grains", "a/0", "b/1", 0.25, 0.5};
+  EXPECT_EQ(load(instead(with(line, "0.25", "[0.25, 0.5]"))).grains.at(0).interpolate, between);
+  between = {"grains", "a/0", "b/1", 0, 1, true};
+  Case const random = load(instead(with(line, "0.25", "\"random\"")));
+  EXPECT_EQ(random.grains.at(0).interpolate, between);
+  EXPECT_EQ(load(to_toml(random)).grains.at(0).interpolate, between);
+
+  expect_one(refused(instead("")), {"grains.mix.shapes: must name at least one shape", "give sample or interpolate"});
+  expect_one(refused(instead("shapes = [\"sphere\"]\n" + sample)),
+             {"case.toml:19: grains.mix.sample: has no meaning beside shapes", "exactly one of"});
+  expect_one(refused(instead(sample + "\n" + line)), {"grains.mix.sample: has no meaning beside interpolate"});
+  expect_one(refused(instead(with(sample, "grains", "grians"))), {"unknown library 'grians'", "'grains'"});
+  expect_one(refused(instead(with(sample, " }", ", truncate = 0 }"))), {"grains.mix.sample.truncate: 0 is out"});
+  expect_one(refused(instead(with(sample, " }", ", flatness = [0.5, 0.25] }"))),
+             {"grains.mix.sample.flatness: [0.5, 0.25] is empty"});
+  expect_one(refused(instead(with(sample, " }", ", flatness = [1.5, 2] }"))), {"holds no grain", "between 0 and 1"});
+  expect_one(refused(instead(with(sample, " }", ", flatnes = [0, 1] }"))), {"did you mean 'flatness'?"});
+  expect_one(refused(instead(with(sample, " }", ", flatness = 0.5 }"))), {"must be two numbers [low, high]"});
+  expect_one(refused(instead(sample + "\nevaluator = \"analytic\"")), {"grains.mix.evaluator", "needs formulas"});
+  expect_one(refused(instead(sample + "\nevaluator = \"grid\"\nstorage = \"compact\"")),
+             {"grains.mix.storage", "run as networks"});
+  expect_one(refused(instead(with(line, "t = 0.25", "t = \"some\""))), {"'some' is unknown; write a number"});
+  expect_one(refused(instead(with(line, "0.25", "[0.5, 1.5]"))), {"grains.mix.interpolate.t: 1.5 is out of range"});
+  expect_one(refused(instead(with(line, "0.25", "[0.5, 0.25]"))), {"[0.5, 0.25] is empty"});
+  expect_one(refused(instead(with(line, ", t = 0.25", ""))), {"grains.mix.interpolate.t: is missing"});
+}
+
 TEST_F(CaseFile, FastNodesAndExplicitStep) {
   Case const c =
       load(with(with(minimal, "count = 5", "count = 5\nnodes = \"fast\""), "end = 1.5", "end = 1.5\nstep = 1e-5"));
@@ -248,8 +289,7 @@ TEST_F(CaseFile, UnsupportedKeysAreRefusedByName) {
              {"wall.floor.kind: 'cylinder' is not supported in this version; supported: plane, box"});
   expect_one(refused(with(minimal, "friction = 0.5", "friction = 0.5\nlaw = \"hertz\"")),
              {"'hertz' is not supported in this version; supported: winkler"});
-  expect_one(refused(with(minimal, "count = 5", "count = 5\nsample = { library = \"grains\" }")),
-             {"sample: is not supported"});
+  expect_one(refused(with(minimal, "count = 5", "count = 5\ngroup = \"a\"")), {"group: is not supported"});
   expect_one(refused(with(minimal, "name = \"drop\"", "name = \"drop\"\nreplicas = 3")),
              {"case.replicas: is not supported"});
 }
@@ -367,7 +407,7 @@ Case unusual_case(fs::path const& library) {
   c.contact[0] = {{"rock", "rock"}, ContactLaw::winkler, {}, 3e6, 0.02, 0.75, 0.4, 0.6, {}};
   c.contact[1] = {{"rock", "steel"}, ContactLaw::winkler, 2.5e10, 2e6, 0.01, 0.5, {}, {}, 0.5};
   c.contact[2] = {{"steel", "steel"}, ContactLaw::winkler, 1e20, 2e6, 0.01, 0.5, {}, {}, {}};
-  c.grains.resize(3);
+  c.grains.resize(5);
   c.grains[0] = {"mix", "rock", {"grains:ballast/*", "sphere"}, Evaluator::analytic, 123, 4, 0.05, {}};
   c.grains[0].insert = {
       InsertCase::Kind::lattice, {{0, 0.1, 0.2}, {1, 2, 3}}, Orientation::aligned, {1, 2, 3}, {4, 5, 6}, {}, {}};
@@ -376,6 +416,11 @@ Case unusual_case(fs::path const& library) {
                         {{0.6, 0.8, 0, 0}, {0, 0, 0, 1}}};
   c.grains[2] = {"three", "steel", {"sphere"}, Evaluator::net, 1000, 1, 0.1, {}};
   c.grains[2].insert = {InsertCase::Kind::list, {}, Orientation::aligned, {}, {}, {{9, 9, 9}}, {}};
+  c.grains[3] = {"four", "steel", {}, Evaluator::grid, 1000, 1, 0.1, {}};
+  c.grains[3].sample = SampleCase{"grains", "bal\"last", 1.75, {0.6, 0.9}, {}, {0.1, 0.2}, {0.3, 1}, {0.4, INFINITY}};
+  c.grains[4] = {"five", "steel", {}, Evaluator::net, 1000, 1, 0.1, {}};
+  c.grains[4].interpolate = InterpolateCase{"grains", "ballast/0", "sand/3", 0.25, 0.75};
+  for (int i : {3, 4}) c.grains[i].insert = c.grains[2].insert;
   c.wall = {{"floor", "steel", WallKind::plane, {1, 2, 3}, {0, 0.6, 0.8}, {}, {}, {}},
             {"bin", "rock", WallKind::box, {}, {0, 0, 1}, {-1, -2, -3}, {1, 2, 3}, {"+z", "-x"}}};
   c.output = {0.125, true};
@@ -398,6 +443,8 @@ void expect_same(InsertCase const& a, InsertCase const& b) {
 void expect_same(GrainsCase const& a, GrainsCase const& b) {
   EXPECT_EQ(std::tie(a.name, a.material, a.shapes, a.evaluator, a.nodes, a.count, a.diameter),
             std::tie(b.name, b.material, b.shapes, b.evaluator, b.nodes, b.count, b.diameter));
+  EXPECT_EQ(a.sample, b.sample);
+  EXPECT_EQ(a.interpolate, b.interpolate);
   expect_same(a.insert, b.insert);
 }
 

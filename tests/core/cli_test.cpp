@@ -21,6 +21,7 @@
 #include "shapes/file_container.h"
 #include "shapes/mesh_files.h"
 #include "shapes/model_file.h"
+#include "tests/support/pebble_decoder.h"
 
 namespace {
 
@@ -368,6 +369,48 @@ TEST_F(Program, ExportsTheGrainsOfAFrameAsMeshes) {
   EXPECT_EQ(scree("export absent.h5 --stl").code, 2);
   EXPECT_EQ(scree("export small.out/results.h5 --stl -o nowhere/x.stl").code, 4);
   EXPECT_FALSE(fs::exists(folder_ / "x.stl"));
+}
+
+TEST_F(Program, SampledGrainsRunAndTheirResultsStandAlone) {
+  write_model(folder_ / "model.h5", test::pebble_library());
+  std::string const sample = "sample = { library = \"grains\", category = \"flat\" }\nnodes = 250";
+  std::string text = with(case_with_library("x"), "shapes = [\"x\"]", sample);
+  text = with(text, "position = [[0, 0, 0.051]]", "position = [[0, 0, 0.09], [0.3, 0, 0.09]]");
+  write("made.toml", text);
+  Outcome const checked = scree("check made.toml");
+  EXPECT_EQ(checked.code, 0) << checked.text;
+  EXPECT_NE(checked.text.find("2 bodies of 2 shapes"), std::string::npos) << checked.text;
+  EXPECT_NE(checked.text.find("grains 'one': 2 tries of flat: 2 accepted"), std::string::npos) << checked.text;
+  EXPECT_EQ(scree("plan made.toml").code, 0);
+  std::vector<std::vector<float>> first;
+  for (std::string const storage : {"explicit", "compact"}) {
+    Outcome const run = scree("run made.toml --output " + storage + " --set 'grains.one.storage=\"" + storage + "\"'");
+    ASSERT_EQ(run.code, 0) << run.text;
+    EXPECT_NE(run.text.find("2 tries of flat"), std::string::npos) << run.text;
+    fs::remove(folder_ / "model.h5.away");
+    fs::rename(folder_ / "model.h5", folder_ / "model.h5.away");  // results need no library
+    ResultsReader const results(folder_ / storage / "results.h5");
+    std::vector<std::vector<float>> codes;
+    for (int shape : results.header().shape) codes.push_back(results.header().library.shape[shape].code);
+    ASSERT_EQ(codes.size(), 2u);
+    EXPECT_NE(codes[0], codes[1]);
+    if (first.empty()) first = codes;
+    EXPECT_EQ(codes, first) << "the storage changed the grains";
+    EXPECT_EQ(scree("info " + storage + "/results.h5").code, 0);
+    EXPECT_EQ(scree("export " + storage + "/results.h5").code, 0);
+    EXPECT_TRUE(fs::exists(folder_ / storage / "paraview/scene.pvd"));
+    Outcome const meshes = scree("export " + storage + "/results.h5 --stl");
+    EXPECT_EQ(meshes.code, 0) << meshes.text;
+    TriangleMesh const grains = read_mesh(folder_ / storage / "grains.stl");
+    double const volume = mesh_mass(grains).volume, d3 = 1e-3;
+    EXPECT_NEAR(volume, 2 * M_PI / 6 * d3, 0.02 * d3);  // of a coarse mesh: chords lie inside
+    fs::rename(folder_ / "model.h5.away", folder_ / "model.h5");
+  }
+  // What was written as the effective case makes the same grains again.
+  Outcome const again = scree("run compact/case.effective.toml --output again");
+  ASSERT_EQ(again.code, 0) << again.text;
+  ResultsReader const a(folder_ / "compact/results.h5"), b(folder_ / "again/results.h5");
+  EXPECT_EQ(a.frame(-1).position, b.frame(-1).position);
 }
 
 TEST_F(Program, InfoReadsModelsAndRefusesOtherFiles) {
