@@ -1,5 +1,5 @@
-// sampled_grains_test.cpp: shapes made for a case: every grain its own, by the seed alone, in both storages, and what
-// is refused with which words. SPDX-License-Identifier: Apache-2.0
+// sampled_grains_test.cpp: shapes made for a case: only the seed decides, both storages alike, what is refused.
+// SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 #include <unistd.h>
 
