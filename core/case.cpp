@@ -53,10 +53,25 @@ void read_normal(CaseReader r, ContactCase& out) {
   bool const by_kappa = r.number("kappa", out.kappa);
   bool const by_stiffness = r.number("stiffness", out.stiffness);
   bool const at_overlap = r.number("at_overlap", out.at_overlap);
-  if (by_kappa && (by_stiffness || at_overlap))
-    r.report("kappa", "give either kappa [N/m3] or stiffness [N/m] with at_overlap, not both");
-  if (!by_kappa && !by_stiffness)
-    r.report("stiffness", "is missing: give stiffness [N/m] with at_overlap [d], or kappa [N/m3]");
+  bool const hertz = out.law == ContactLaw::hertz, linear = out.law == ContactLaw::linear;
+  bool const onset = r.number("onset", out.onset);
+  bool const by_modulus = r.number("youngs_modulus", out.youngs_modulus, hertz ? Need::required : Need::optional);
+  bool const by_ratio = r.number("poisson_ratio", out.poisson_ratio, hertz ? Need::required : Need::optional);
+  auto const only_beside = [&](char const* key, bool given, bool known, char const* laws) {
+    if (given && !known) r.report(key, fmt::format("has a meaning beside law = {} only", laws));
+  };
+  only_beside("kappa", by_kappa, !hertz && !linear, "\"winkler\"");
+  only_beside("stiffness", by_stiffness, !hertz, "\"winkler\" or \"linear\"");
+  only_beside("onset", onset, linear, "\"linear\"");
+  only_beside("youngs_modulus", by_modulus, hertz, "\"hertz\"");
+  only_beside("poisson_ratio", by_ratio, hertz, "\"hertz\"");
+  if (linear && !by_stiffness) r.report("stiffness", "is missing: law = \"linear\" takes its k_n [N/m]");
+  if (!hertz && !linear) {
+    if (by_kappa && (by_stiffness || at_overlap))
+      r.report("kappa", "give either kappa [N/m3] or stiffness [N/m] with at_overlap, not both");
+    if (!by_kappa && !by_stiffness)
+      r.report("stiffness", "is missing: give stiffness [N/m] with at_overlap [d], or kappa [N/m3]");
+  }
   r.finish();
 }
 
@@ -77,8 +92,9 @@ void read_contact(CaseReader r, ContactCase& out) {
       r.report("pair", fmt::format("must name two materials (the same one twice for a material with itself), not {}",
                                    pair.size()));
   }
-  r.choice<ContactLaw>("law", out.law, {{"winkler", ContactLaw::winkler}}, {"linear", "hertz"});
-  if (auto normal = r.table("normal", Need::required)) read_normal(*normal, out);
+  r.choice<ContactLaw>(
+      "law", out.law, {{"winkler", ContactLaw::winkler}, {"linear", ContactLaw::linear}, {"hertz", ContactLaw::hertz}});
+  if (auto normal = r.table("normal", Need::required)) read_normal(*normal, out);  // its keys depend on the law
   r.number("tangential_ratio", out.tangential_ratio);
   r.number("friction", out.friction);
   if (auto damping = r.table("damping")) read_damping(*damping, out);

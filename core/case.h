@@ -13,6 +13,7 @@
 
 #include "core/case_effects.h"
 #include "kernels/base/vec.h"
+#include "kernels/contact_laws.h"
 #include "shapes/bake.h"
 #include "shapes/generate.h"
 
@@ -28,7 +29,6 @@ class InputError : public std::runtime_error {
   std::vector<std::string> problems;
 };
 
-enum class ContactLaw { winkler };                   // linear and hertz: not in this version
 enum class Evaluator { net, grid, mesh, analytic };  // net: as the shape is stored
 // How surface nodes are kept: positions and areas, or 16-bit radii along directions that all grains share.
 enum class NodeStorage { explicit_, compact };
@@ -62,15 +62,18 @@ struct MaterialCase {
 struct ContactCase {
   std::pair<std::string, std::string> pair;
   ContactLaw law = ContactLaw::winkler;
-  // Normal stiffness: kappa [N/m3], or stiffness [N/m] as a secant at overlap at_overlap * d (physics.md section 1),
-  // in which case kappa follows from the largest grain diameter d of the case, R* = d/4.
+  // Normal stiffness. winkler: kappa [N/m3], or stiffness [N/m] as a secant at overlap at_overlap * d (physics.md
+  // section 1), in which case kappa follows from the largest grain diameter d of the case, R* = d/4. linear: stiffness.
   std::optional<double> kappa;
   double stiffness = 2e6;
-  double at_overlap = 0.01;
+  double at_overlap = 0.01;             // linear, hertz: of the secant that scales the friction stiffness
   double tangential_ratio = 0.5;        // k_t / k_n
   std::optional<double> friction;       // absent: frictionless, no history exists
   std::optional<double> damping_ratio;  // zeta; or ...
   std::optional<double> restitution;    // ... e, mapped through the law's table
+  double onset = 1e-3;                  // linear: overlap at which the pressure is reached [d of the largest grain]
+  double youngs_modulus = 0;            // hertz [Pa]
+  double poisson_ratio = 0;             // hertz
 };
 
 struct InsertCase {

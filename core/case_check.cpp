@@ -42,6 +42,7 @@ class Checker {
   void time();
   void materials();
   void contacts();
+  void normal_law(std::string const& at, ContactCase const& k);
   void touching_pairs();
   void shapes(std::string const& key, GrainsCase const& g);
   void made_shapes(std::string const& key, GrainsCase const& g);
@@ -125,8 +126,7 @@ void Checker::contacts() {
     if (!seen.insert(std::minmax(k.pair.first, k.pair.second)).second)
       fail(at + "pair",
            fmt::format("'{}' and '{}' have two [[contact]] entries: keep one", k.pair.first, k.pair.second));
-    if (k.kappa) positive(at + "normal.kappa", *k.kappa, "a pressure per overlap in N/m3");
-    if (!k.kappa) positive(at + "normal.stiffness", k.stiffness, "a secant stiffness in N/m");
+    normal_law(at + "normal.", k);
     range(at + "normal.at_overlap", k.at_overlap, 0, false, 0.1, "the overlap in d at which the stiffness holds");
     range(at + "tangential_ratio", k.tangential_ratio, 0, false, 2, "k_t / k_n; elastic solids lie between 2/3 and 1");
     if (k.friction)
@@ -139,6 +139,22 @@ void Checker::contacts() {
             "rebound speed over impact speed; above 1 energy would be made");
     if (k.damping_ratio && k.restitution) fail(at + "damping", "give exactly one of ratio and restitution");
   }
+}
+
+void Checker::normal_law(std::string const& at, ContactCase const& k) {
+  if (k.law == ContactLaw::hertz) {
+    positive(at + "youngs_modulus", k.youngs_modulus, "Young's modulus in Pa");
+    if (!(k.poisson_ratio > -1 && k.poisson_ratio < 0.5))
+      fail(at + "poisson_ratio",
+           fmt::format("{} is out of range: must be > -1 and < 0.5 (a stable elastic solid)", k.poisson_ratio));
+    return;
+  }
+  if (k.law == ContactLaw::linear)
+    range(at + "onset", k.onset, 0, false, 0.1, "the overlap in d that carries all of p");
+  if (k.kappa && k.law == ContactLaw::winkler)
+    positive(at + "kappa", *k.kappa, "a pressure per overlap in N/m3");
+  else
+    positive(at + "stiffness", k.stiffness, "a contact stiffness in N/m");
 }
 
 // Every two materials that can meet need a law: grains meet grains and walls, walls never meet walls.

@@ -49,6 +49,17 @@ std::string quaternions(std::vector<Quat> const& qs) {
 }
 
 char const* to_string(Orientation o) { return o == Orientation::random ? "random" : "aligned"; }
+char const* to_string(ContactLaw law) {
+  switch (law) {
+    case ContactLaw::winkler:
+      return "winkler";
+    case ContactLaw::linear:
+      return "linear";
+    case ContactLaw::hertz:
+      return "hertz";
+  }
+  throw std::invalid_argument("this ContactLaw does not exist");
+}
 char const* to_string(Evaluator e) {
   switch (e) {
     case Evaluator::net:
@@ -74,11 +85,18 @@ void write_time(std::string& out, TimeCase const& t) {
 }
 
 void write_contact(std::string& out, ContactCase const& c) {
-  out +=
-      fmt::format("\n[[contact]]\npair = [{}, {}]\nlaw = \"winkler\"\n", quoted(c.pair.first), quoted(c.pair.second));
-  out += c.kappa
-             ? fmt::format("normal = {{ kappa = {} }}  # [N/m3]\n", *c.kappa)
-             : fmt::format("normal = {{ stiffness = {}, at_overlap = {} }}  # [N/m], [d]\n", c.stiffness, c.at_overlap);
+  out += fmt::format("\n[[contact]]\npair = [{}, {}]\nlaw = \"{}\"\n", quoted(c.pair.first), quoted(c.pair.second),
+                     to_string(c.law));
+  if (c.law == ContactLaw::linear)
+    out += fmt::format("normal = {{ stiffness = {}, onset = {}, at_overlap = {} }}  # [N/m], [d], [d]\n", c.stiffness,
+                       c.onset, c.at_overlap);
+  else if (c.law == ContactLaw::hertz)
+    out += fmt::format("normal = {{ youngs_modulus = {}, poisson_ratio = {}, at_overlap = {} }}  # [Pa], [-], [d]\n",
+                       c.youngs_modulus, c.poisson_ratio, c.at_overlap);
+  else if (c.kappa)
+    out += fmt::format("normal = {{ kappa = {} }}  # [N/m3]\n", *c.kappa);
+  else
+    out += fmt::format("normal = {{ stiffness = {}, at_overlap = {} }}  # [N/m], [d]\n", c.stiffness, c.at_overlap);
   out += fmt::format("tangential_ratio = {}\n", c.tangential_ratio);
   if (c.friction) out += fmt::format("friction = {}\n", *c.friction);
   if (c.damping_ratio) out += fmt::format("damping = {{ ratio = {} }}\n", *c.damping_ratio);

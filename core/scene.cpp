@@ -35,27 +35,50 @@ SceneView Scene::view() const {
 
 namespace {
 
+// Below this overlap Hertz's pressure is a straight line [d of the largest grain]: p' would be infinite at touch.
+double constexpr hertz_onset = 1e-4;
+
 int material_index(Case const& c, std::string const& name) {
   for (std::size_t i = 0; i < c.material.size(); ++i)
     if (c.material[i].name == name) return static_cast<int>(i);
   return -1;  // refused by problems(Case)
 }
 
+PressureLaw normal_law(ContactCase const& contact, double d) {
+  PressureLaw law;
+  law.kind = contact.law;
+  law.reference = contact.at_overlap * d;
+  switch (contact.law) {
+    case ContactLaw::winkler:
+      law.modulus = contact.kappa ? *contact.kappa : winkler_modulus(contact.stiffness, d, contact.at_overlap * d);
+      return law;
+    case ContactLaw::linear:
+      law.modulus = linear_modulus(contact.stiffness, d);
+      law.onset = contact.onset * d;
+      return law;
+    case ContactLaw::hertz:
+      law.modulus = hertz_modulus(contact.youngs_modulus, contact.poisson_ratio);
+      law.onset = hertz_onset * d;
+      return law;
+  }
+  throw std::invalid_argument("this ContactLaw does not exist");
+}
+
 ContactParameters parameters_of(ContactCase const& contact, double largest_diameter) {
   ContactParameters p;
-  p.kappa = contact.kappa ? *contact.kappa
-                          : winkler_modulus(contact.stiffness, largest_diameter, contact.at_overlap * largest_diameter);
+  ContactLaw const law = contact.law;
+  p.normal = normal_law(contact, largest_diameter);
   p.tangential = contact.tangential_ratio;
   p.friction = contact.friction.value_or(0);
   if (contact.damping_ratio) {
     p.damping_nodes = *contact.damping_ratio;
     // Both paths have to rebound alike, so the ratio stands for the restitution it gives on nodes.
-    p.damping_sphere = p.damping_nodes > 0
-                           ? damping_ratio_for(restitution_of(p.damping_nodes, DampingPath::nodes), DampingPath::sphere)
-                           : 0;
+    p.damping_sphere = p.damping_nodes > 0 ? damping_ratio_for(restitution_of(p.damping_nodes, DampingPath::nodes, law),
+                                                               DampingPath::sphere, law)
+                                           : 0;
   } else if (contact.restitution) {
-    p.damping_nodes = damping_ratio_for(*contact.restitution, DampingPath::nodes);
-    p.damping_sphere = damping_ratio_for(*contact.restitution, DampingPath::sphere);
+    p.damping_nodes = damping_ratio_for(*contact.restitution, DampingPath::nodes, law);
+    p.damping_sphere = damping_ratio_for(*contact.restitution, DampingPath::sphere, law);
   }
   return p;
 }

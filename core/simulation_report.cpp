@@ -17,10 +17,22 @@ std::int64_t bytes(std::vector<T> const& v) {
   return static_cast<std::int64_t>(v.size() * sizeof(T));
 }
 
+std::string normal_law_in_words(PressureLaw const& law) {
+  switch (law.kind) {
+    case ContactLaw::winkler:
+      return fmt::format("winkler kappa {:.4g} N/m3", law.modulus);
+    case ContactLaw::linear:
+      return fmt::format("linear pressure {:.4g} Pa from overlap {:.3g} m on", law.modulus, law.onset);
+    case ContactLaw::hertz:
+      return fmt::format("hertz E* {:.4g} Pa, linear below overlap {:.3g} m", law.modulus * SphereLaw::pi, law.onset);
+  }
+  throw std::invalid_argument("this ContactLaw does not exist");
+}
+
 std::string law_of(Simulation::Impl const& s, int a, int b) {
   ContactParameters const& p = s.scene.contact[a * s.scene.material.size() + b];
-  std::string text = fmt::format("{} - {}: winkler kappa {:.4g} N/m3, k_t/k_n {:.3g}", s.scene.material[a],
-                                 s.scene.material[b], p.kappa, p.tangential);
+  std::string text = fmt::format("{} - {}: {}, k_t/k_n {:.3g}", s.scene.material[a], s.scene.material[b],
+                                 normal_law_in_words(p.normal), p.tangential);
   if (p.friction > 0) text += fmt::format(", friction {:.3g}", p.friction);
   if (p.damping_nodes > 0) text += fmt::format(", damping ratio {:.3g}", p.damping_nodes);
   return text;
@@ -66,7 +78,8 @@ Plan Simulation::plan() const {
   int const materials = static_cast<int>(s.scene.material.size());
   for (int a = 0; a < materials; ++a)
     for (int b = a; b < materials; ++b)
-      if (s.scene.contact[a * materials + b].kappa > 0) plan.law += (plan.law.empty() ? "" : "\n") + law_of(s, a, b);
+      if (s.scene.contact[a * materials + b].normal.modulus > 0)
+        plan.law += (plan.law.empty() ? "" : "\n") + law_of(s, a, b);
   plan.arrays = arrays_of(s);
   plan.bodies = s.scene.bodies();
   plan.shapes = static_cast<int>(s.scene.shape.size());

@@ -53,11 +53,35 @@ double speed2_of_forces(Case const& c, Scene const& scene, Placement const& plac
   return speed2;
 }
 
+// Overlap at which a smooth contact stores m v^2 / 2 [m].
+double impact_overlap(SphereLaw const& law, double m, double speed2) {
+  if (law.law.kind == ContactLaw::winkler)  // m v^2 / 2 = pi R kappa overlap^3 / 3
+    return std::cbrt(1.5 * m * speed2 / (pi * law.radius * law.law.modulus));
+  double low = 0, high = law.radius;  // deeper than this no law holds
+  for (int i = 0; i < 60; ++i) {
+    double const mid = 0.5 * (low + high);
+    (law.energy(mid) < 0.5 * m * speed2 ? low : high) = mid;
+  }
+  return high;
+}
+
 // Energy error a step may make as one node enters, in kinetic energies of its grain. Entering between two steps costs
-// about kappa A (v dt)^2 / 4 of either sign, so the share depends on kappa A dt^2 / m alone, not on the speed. Measured
+// about p'(0) A (v dt)^2 / 4 of either sign, so the share depends on p'(0) A dt^2 / m alone, not on the speed. Measured
 // (ellipsoids, 1,000 nodes): 6e-5 keeps an undamped collision to 1e-4. A scene that dissipates is held to the ledger's
 // 1e-3 instead.
 double constexpr entry_error_conservative = 6e-5, entry_error_dissipative = 1e-3;
+
+// Step at which a closed-form sphere of these laws may enter: their stiffness rises at once, and half way through a
+// step that costs K (v dt)^2 / 8 of either sign, with K at the overlap v dt. Winkler's sphere starts softly and needs
+// none.
+double entry_step(SphereLaw const& law, double m, double speed, double entry_error) {
+  double dt = std::sqrt(4 * entry_error * m / law.stiffness(law.radius));
+  for (int i = 0; i < 40; ++i) {  // K grows slower than the overlap: a contraction
+    double const stiffness = law.stiffness(std::max(speed * dt, 1e-6 * law.radius));
+    dt = std::sqrt(4 * entry_error * m / stiffness);
+  }
+  return dt;
+}
 
 // Largest flat face a shape can land on [d^2]: a box has one; of other bodies contact stays round or small. A baked box
 // keeps its formula beside its grid or mesh.
@@ -91,11 +115,13 @@ StepEstimate estimate_critical_step(Case const& c, Scene const& scene, Placement
     for (int material = 0; material < static_cast<int>(scene.material.size()); ++material) {
       ContactParameters const& p =
           scene.contact[scene.material_of[i] * static_cast<int>(scene.material.size()) + material];
-      if (!(p.kappa > 0)) continue;
-      double const radius = d / 2;  // round impact on a plane: m v^2 / 2 = pi R kappa overlap^3 / 3
-      double const overlap = std::max(std::cbrt(1.5 * m * speed2 / (pi * radius * p.kappa)), 1e-3 * d);
-      double const stiffness = std::max(2 * pi * radius * p.kappa * overlap, p.kappa * flat_face(shape) * d * d) *
-                               std::max(1.0, p.tangential);
+      if (!(p.normal.modulus > 0)) continue;
+      double const radius = d / 2;  // round impact on a plane
+      SphereLaw const law{law_at_radius(p.normal, radius), radius};
+      double const steepest = law.law.slope(0);
+      double const overlap = std::max(impact_overlap(law, m, speed2), 1e-3 * d);
+      double const stiffness = std::max(law.stiffness(overlap), steepest * flat_face(shape) * d * d) *
+                               std::max(1.0, p.tangential * law.tangential(overlap) / law.stiffness(overlap));
       double const least = std::min({inertia.x, inertia.y, inertia.z});
       double const omega2 = 2 * stiffness * (1 / m + radius * radius / least);  // both bodies of a pair
       double const zeta = std::max(p.damping_nodes, p.damping_sphere);
@@ -103,8 +129,10 @@ StepEstimate estimate_critical_step(Case const& c, Scene const& scene, Placement
       if (critical < out.critical) out.critical = critical, out.overlap = overlap / d;
       double const spacing = scene.shape[scene.shape_of[i]].node_spacing * d;
       double const entry_error = zeta > 0 ? entry_error_dissipative : entry_error_conservative;
+      if (scene.shape[scene.shape_of[i]].closed_form_sphere && law.law.kind != ContactLaw::winkler)
+        out.accurate = std::min(out.accurate, entry_step(law, m, out.speed, entry_error));
       if (spacing > 0)
-        out.accurate = std::min(out.accurate, std::sqrt(entry_error * m / (p.kappa * spacing * spacing)));
+        out.accurate = std::min(out.accurate, std::sqrt(entry_error * m / (steepest * spacing * spacing)));
     }
   }
   return out;
@@ -116,7 +144,8 @@ double load_in_grain_weights(Case const& c, Scene const& scene) {
   for (int i = 0; i < scene.bodies(); ++i) {
     ContactParameters const& p = scene.contact[scene.material_of[i] * (static_cast<int>(scene.material.size()) + 1)];
     double const d = scene.diameter[i];
-    if (p.kappa > 0) least = std::min(least, WinklerSphere{p.kappa, d / 4}.force(0.01 * d) / (scene.mass[i] * g));
+    if (p.normal.modulus > 0)
+      least = std::min(least, SphereLaw{law_at_radius(p.normal, d / 4), d / 4}.force(0.01 * d) / (scene.mass[i] * g));
   }
   return least;
 }

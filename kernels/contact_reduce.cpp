@@ -68,12 +68,15 @@ struct ReducePair {
   // Pair sums that the damping needs: K, 1/m_e at the force-weighted point, and the elastic part.
   struct Sums {
     double stiffness = 0, tangential = 0;  // K and K_t [N/m]
+    double damping = 0;                    // of the weights that share out the damping
+    double area = 0, depth = 0;            // of the active nodes [m^2], and times their phi [m^3]
     double force = 0;                      // sum of |node forces| [N]
     Vec3 point;                            // force-weighted [m]
   };
 
-  SCREE_HD void elastic_pass(Pair const& p, int which, double share, int side, WinklerLaw law,
+  SCREE_HD void elastic_pass(Pair const& p, int which, double share, int side, PressureLaw const& law,
                              ContactParameters const& parameters, Vec3 centre_b, Sums& sums, PairResult& out) const {
+    double const secant = law.secant();
     for (int i = active_first[side]; i < active_first[side + 1]; ++i) {
       Sample const s = sample(p, which, share, i);
       double const pressure = law.pressure(s.phi), slope = law.slope(s.phi), steep = norm(s.gradient);
@@ -82,7 +85,10 @@ struct ReducePair {
       sums.force += force;
       sums.point += s.x * force;
       sums.stiffness += s.weight * slope * steep * steep;
-      sums.tangential += s.weight * law.kappa * parameters.tangential;
+      sums.damping += s.weight * law.damping_weight(s.phi) * steep * steep;
+      sums.tangential += s.weight * secant * parameters.tangential;
+      sums.area += s.weight;
+      sums.depth += s.weight * s.phi;
       out.energy_normal += s.weight * law.energy(s.phi);
       out.overlap = s.phi > out.overlap ? s.phi : out.overlap;
       ++out.active;
@@ -95,10 +101,11 @@ struct ReducePair {
     return cursor < end && history_node[cursor] == node ? history_xi[cursor] : Vec3{};
   }
 
-  SCREE_HD void dissipative_pass(Pair const& p, int which, double share, int side, WinklerLaw law,
+  SCREE_HD void dissipative_pass(Pair const& p, int which, double share, int side, PressureLaw const& law,
                                  ContactParameters const& parameters, double beta, double beta_t, Vec3 centre_b,
                                  PairResult& out) const {
     bool const friction = parameters.friction > 0;
+    double const secant = law.secant();
     Vec3 const turn = mean_spin(kinematics, p) * options.time_step;
     int cursor = friction ? history_first[side] : 0;
     for (int i = active_first[side]; i < active_first[side + 1]; ++i) {
@@ -106,14 +113,14 @@ struct ReducePair {
       double const pressure = law.pressure(s.phi), steep = norm(s.gradient);
       Vec3 const v =
           point_velocity(state, kinematics, s.carrier, s.x) - point_velocity(state, kinematics, s.partner, s.x);
-      double total = pressure + beta * law.slope(s.phi) * dot(s.gradient, v);
+      double total = pressure + beta * law.damping_weight(s.phi) * dot(s.gradient, v);
       total = total > 0 ? total : 0;  // a contact pushes, it never pulls
       if (beta > 0)
         add(out.damping, s.gradient * (s.sign * s.weight * (total - pressure)), s.x, state.position[p.a], centre_b);
       if (!next_xi.empty()) next_xi[i] = {};
       if (!friction || !(steep > 0)) continue;
       Vec3 const n = s.gradient / steep;
-      double const kappa_t = law.kappa * parameters.tangential;
+      double const kappa_t = secant * parameters.tangential;
       Vec3 const old = transport(remembered(side, active_node[i], cursor), turn, n);
       TangentialResult const t =
           slide(old, v - n * dot(n, v), options.time_step, beta_t, parameters.friction * total * steep / kappa_t);
@@ -133,7 +140,7 @@ struct ReducePair {
     int const sides[2] = {side_of_pair[2 * std::size_t(k)], side_of_pair[2 * std::size_t(k) + 1]};
     double const share = sides[0] >= 0 && sides[1] >= 0 ? 0.5 : 1;
     ContactParameters const& parameters = contact_parameters(scene, p);
-    WinklerLaw const law{parameters.kappa};
+    PressureLaw const law = law_at_radius(parameters.normal, effective_radius(scene, p));
     Vec3 const centre_b = centre_of_b(scene, state, p);
     Sums sums;
     for (int which = 0; which < 2; ++which)
@@ -147,7 +154,15 @@ struct ReducePair {
     Vec3 const n = size > 0 ? out.elastic.force_on_a / size : Vec3{0, 0, 1};
     double const mass = 1 / inverse_effective_mass(scene, state, kinematics, p, x, n);
     double const zeta = parameters.damping_nodes;
-    double const beta = sums.stiffness > 0 ? 2 * zeta * std::sqrt(mass / sums.stiffness) : 0;
+    double beta = sums.stiffness > 0 ? 2 * zeta * std::sqrt(mass / sums.stiffness) : 0;
+    if (law.kind == ContactLaw::linear) {
+      // p' of a few nodes in the onset is no measure of K: that of the smooth contact with this force and this mean
+      // depth, half its overlap, is.
+      double const depth = 2 * sums.depth / sums.area;
+      double const smooth = sums.force * law.pressure(depth) / law.energy(depth);
+      beta = sums.damping > 0 ? 2 * zeta * std::sqrt(mass * smooth) / sums.damping : 0;
+      sums.stiffness = smooth > sums.stiffness ? smooth : sums.stiffness;  // for the critical step: nodes may move on
+    }
     double const beta_t = sums.tangential > 0 ? 2 * zeta * std::sqrt(mass / sums.tangential) : 0;
     for (int which = 0; which < 2; ++which)
       if (sides[which] >= 0)

@@ -60,7 +60,7 @@ struct SpherePair {
       return;
     }
     ContactParameters const& parameters = contact_parameters(scene, p);
-    WinklerSphere const law{parameters.kappa, effective};
+    SphereLaw const law{law_at_radius(parameters.normal, effective), effective};
     // The contact point lies half way into the overlap; on a plane, on the plane.
     Vec3 const x = p.with_plane() ? xa - n * (ra - overlap) : state.position[p.b] + n * reach_b;
     double const mass = 1 / inverse_effective_mass(scene, state, kinematics, p, x, n);
@@ -79,7 +79,7 @@ struct SpherePair {
     out.arm2_a = norm2(arm_a);
     out.arm2_b = norm2(arm_b);
     out.stiffness = stiffness;
-    double const k_t = stiffness * parameters.tangential;
+    double const k_t = law.tangential(overlap) * parameters.tangential;
     if (parameters.friction > 0 && k_t > 0) {
       Vec3 const old = transport(restored(k, k_t), mean_spin(kinematics, p) * options.time_step, n);
       TangentialResult const t =

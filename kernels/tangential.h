@@ -33,6 +33,14 @@ SCREE_HD inline ContactParameters const& contact_parameters(SceneView const& sce
   return scene.contact[scene.material_of[pair.a] * scene.materials + mb];
 }
 
+// R* of the equal-volume spheres of a pair [m]; a plane is flat.
+SCREE_HD inline double effective_radius(SceneView const& scene, Pair const& pair) {
+  double const ra = 0.5 * scene.diameter[pair.a];
+  if (pair.with_plane()) return ra;
+  double const rb = 0.5 * scene.diameter[pair.b];
+  return ra * rb / (ra + rb);
+}
+
 SCREE_HD inline Vec3 mean_spin(KinematicsView const& kinematics, Pair const& pair) {
   Vec3 const wa = kinematics.spin[pair.a];
   return pair.with_plane() ? wa * 0.5 : (wa + kinematics.spin[pair.b]) * 0.5;

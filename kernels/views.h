@@ -5,6 +5,7 @@
 
 #include "kernels/base/span.h"
 #include "kernels/base/vec.h"
+#include "kernels/contact_laws.h"
 #include "kernels/node_storage.h"
 #include "kernels/sdf/analytic.h"
 #include "kernels/sdf/grid.h"
@@ -58,8 +59,8 @@ struct PlaneRecord {
 
 // Parameters of one material pair.
 struct ContactParameters {
-  double kappa = 0;           // Winkler modulus [N/m3]
-  double tangential = 0;      // kappa_t / kappa [-]
+  PressureLaw normal;         // hertz: modulus E* / pi [Pa], see law_at_radius; modulus 0: no law was given
+  double tangential = 0;      // k_t / k_n, times normal.secant() [-]
   double friction = 0;        // mu [-]; 0: none
   double damping_nodes = 0;   // zeta of node contacts [-]; 0: none
   double damping_sphere = 0;  // zeta of closed-form spheres, whose force clips once a pair [-]

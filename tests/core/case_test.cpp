@@ -256,6 +256,30 @@ TEST_F(CaseFile, ExclusiveKeys) {
   expect_one(refused(with(minimal, "{ stiffness = 2e6,", "{ kappa = 2.5e10,")), {"either kappa", "not both"});
 }
 
+TEST_F(CaseFile, EachLawHasItsOwnNormalKeys) {
+  std::string const old = "normal = { stiffness = 2e6, at_overlap = 0.01 }";
+  auto const law = [&](std::string const& name, std::string const& keys) {
+    return with(minimal, old, "law = \"" + name + "\"\nnormal = { " + keys + " }");
+  };
+  ContactCase const linear = load(law("linear", "stiffness = 1e5, onset = 2e-3")).contact.at(0);
+  EXPECT_EQ(linear.law, ContactLaw::linear);
+  EXPECT_EQ(std::tie(linear.stiffness, linear.onset), std::make_tuple(1e5, 2e-3));
+  ContactCase const hertz = load(law("hertz", "youngs_modulus = 7e10, poisson_ratio = 0.2")).contact.at(0);
+  EXPECT_EQ(hertz.law, ContactLaw::hertz);
+  EXPECT_EQ(std::tie(hertz.youngs_modulus, hertz.poisson_ratio), std::make_tuple(7e10, 0.2));
+  expect_one(refused(law("linear", "kappa = 1e9, stiffness = 1e5")), {"normal.kappa: has a meaning beside law"});
+  expect_one(refused(law("linear", "onset = 1e-3")), {"normal.stiffness: is missing", "k_n"});
+  expect_one(refused(law("linear", "stiffness = 1e5, onset = 0")), {"normal.onset: 0 is out of range"});
+  expect_one(refused(law("hertz", "youngs_modulus = 7e10")), {"normal.poisson_ratio: is missing"});
+  expect_one(refused(law("hertz", "youngs_modulus = 0, poisson_ratio = 0.2")), {"youngs_modulus: 0", "must be > 0"});
+  for (char const* nu : {"-1.0", "0.5", "nan"})
+    expect_one(refused(law("hertz", std::string("youngs_modulus = 7e10, poisson_ratio = ") + nu)),
+               {"normal.poisson_ratio: ", "must be > -1 and < 0.5"});
+  expect_one(refused(law("winkler", "stiffness = 1e5, poisson_ratio = 0.2")),
+             {"normal.poisson_ratio: has a meaning beside law = \"hertz\" only"});
+  expect_one(refused(law("herz", "stiffness = 1e5")), {"'herz' is unknown", "'hertz'"});
+}
+
 TEST_F(CaseFile, InsertionThatCannotFitIsRefused) {
   // floor(1/0.1) = 10 cells a side (as floating point has it), 40 layers: 4,000 places.
   expect_one(refused(with(minimal, "count = 5", "count = 5000")), {"grains.mix.insert.box", "not 5000"});
@@ -287,8 +311,6 @@ TEST_F(CaseFile, UnsupportedKeysAreRefusedByName) {
              {"case.toml:26: wall.floor.motion: is not supported in this version", "supported here:"});
   expect_one(refused(with(minimal, "kind = \"plane\"", "kind = \"cylinder\"")),
              {"wall.floor.kind: 'cylinder' is not supported in this version; supported: plane, box"});
-  expect_one(refused(with(minimal, "friction = 0.5", "friction = 0.5\nlaw = \"hertz\"")),
-             {"'hertz' is not supported in this version; supported: winkler"});
   expect_one(refused(with(minimal, "count = 5", "count = 5\ngroup = \"a\"")), {"group: is not supported"});
   expect_one(refused(with(minimal, "name = \"drop\"", "name = \"drop\"\nreplicas = 3")),
              {"case.replicas: is not supported"});
@@ -402,11 +424,14 @@ Case unusual_case(fs::path const& library) {
   c.time = {1.0 / 3, 0.1 + 0.02, 0.25, SettleCase{4.5, 0.01, 3e-9, 0.07}};
   c.gravity = Vec3{1e-300, -0.5, 9.81};
   c.library = {{"grains", library}};
-  c.material = {{"rock", 2650.5}, {"steel", 7.8e3}};
+  c.material = {{"rock", 2650.5}, {"steel", 7.8e3}, {"wood", 700}};
   c.contact.resize(3);
   c.contact[0] = {{"rock", "rock"}, ContactLaw::winkler, {}, 3e6, 0.02, 0.75, 0.4, 0.6, {}};
   c.contact[1] = {{"rock", "steel"}, ContactLaw::winkler, 2.5e10, 2e6, 0.01, 0.5, {}, {}, 0.5};
   c.contact[2] = {{"steel", "steel"}, ContactLaw::winkler, 1e20, 2e6, 0.01, 0.5, {}, {}, {}};
+  c.contact.resize(5);
+  c.contact[3] = {{"rock", "wood"}, ContactLaw::linear, {}, 3e5, 0.02, 0.75, 0.4, 0.6, {}, 3e-3};
+  c.contact[4] = {{"wood", "wood"}, ContactLaw::hertz, {}, 2e6, 0.03, 0.5, {}, {}, 0.5, 1e-3, 7.1e10, -0.25};
   c.grains.resize(5);
   c.grains[0] = {"mix", "rock", {"grains:ballast/*", "sphere"}, Evaluator::analytic, 123, 4, 0.05, {}};
   c.grains[0].insert = {
@@ -452,7 +477,8 @@ void expect_same(ContactCase const& a, ContactCase const& b) {
   EXPECT_EQ(std::tie(a.pair, a.law, a.kappa, a.tangential_ratio, a.friction, a.damping_ratio, a.restitution),
             std::tie(b.pair, b.law, b.kappa, b.tangential_ratio, b.friction, b.damping_ratio, b.restitution));
   if (a.kappa) return;  // stiffness is unused beside kappa
-  EXPECT_EQ(std::tie(a.stiffness, a.at_overlap), std::tie(b.stiffness, b.at_overlap));
+  EXPECT_EQ(std::tie(a.stiffness, a.at_overlap, a.onset), std::tie(b.stiffness, b.at_overlap, b.onset));
+  EXPECT_EQ(std::tie(a.youngs_modulus, a.poisson_ratio), std::tie(b.youngs_modulus, b.poisson_ratio));
 }
 
 void expect_same(WallCase const& a, WallCase const& b) {
@@ -481,7 +507,7 @@ TEST_F(CaseFile, EchoLoadsBackToTheSameCase) {
       std::tie(b.time.settle->damping, b.time.settle->after, b.time.settle->kinetic_per_grain, b.time.settle->hold));
   EXPECT_EQ(*a.gravity, *b.gravity);
   EXPECT_EQ(std::tie(a.library.at(0).name, a.library[0].file), std::tie(b.library.at(0).name, b.library[0].file));
-  ASSERT_EQ(b.material.size(), 2u);
+  ASSERT_EQ(b.material.size(), 3u);
   EXPECT_EQ(std::tie(a.material[1].name, a.material[1].density), std::tie(b.material[1].name, b.material[1].density));
   expect_same(a.contact, b.contact);
   expect_same(a.grains, b.grains);

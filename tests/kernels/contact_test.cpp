@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <utility>
+
 #include "kernels/contact_laws.h"
 #include "kernels/restitution.h"
 #include "kernels/tangential.h"
@@ -25,9 +28,68 @@ TEST(Restitution, InverseReturnsTheRatio) {
   for (double e : {0.0, -0.1, 1.1}) EXPECT_THROW(damping_ratio_for(e, DampingPath::nodes), std::invalid_argument);
 }
 
+// A force F ~ x^n damped by 2 zeta sqrt(m K) is, in the coordinate sqrt(2 U), the linear oscillator with
+// zeta_eff = zeta sqrt(2 n / (n + 1)); released where the force would pull (Schwager, Poeschel, Granul. Matter 9 (2007)
+// 465, eq. 20): tan(damped phase) = 2 z sqrt(1 - z^2) / (2 z^2 - 1) there.
+double clipped_oscillator(double z) {
+  double const w = std::sqrt(1 - z * z);
+  return std::exp(-z / w * std::atan2(2 * z * w, 2 * z * z - 1));
+}
+
+TEST(Restitution, ClosedFormOfEachLawIsTheClippedOscillator) {
+  for (auto const& [law, n] :
+       {std::pair{ContactLaw::winkler, 2.0}, {ContactLaw::linear, 1.0}, {ContactLaw::hertz, 1.5}})
+    for (double zeta : {0.05, 0.2, 0.5, 0.8})
+      EXPECT_NEAR(restitution_of(zeta, DampingPath::sphere, law), clipped_oscillator(zeta * std::sqrt(2 * n / (n + 1))),
+                  1e-3)
+          << static_cast<int>(law) << ", zeta " << zeta;
+}
+
+TEST(Restitution, EachLawInverts) {
+  for (ContactLaw law : {ContactLaw::linear, ContactLaw::hertz})
+    for (DampingPath path : {DampingPath::nodes, DampingPath::sphere})
+      for (double e : {0.2, 0.5, 0.9}) {
+        EXPECT_NEAR(restitution_of(damping_ratio_for(e, path, law), path, law), e, 1e-4);
+        EXPECT_NEAR(restitution_of(0, path, law), 1, 1e-4);
+      }
+}
+
+TEST(ContactLaws, EveryFunctionIsTheDerivativeOfTheNextAndContinuousAtTheOnset) {
+  PressureLaw const linear{ContactLaw::linear, 3e7, 1e-4, 1e-3}, hertz{ContactLaw::hertz, 5e9, 1e-5, 1e-3};
+  for (PressureLaw const& law : {PressureLaw{ContactLaw::winkler, 3e9}, linear, hertz}) {
+    double const around = law.onset > 0 ? law.onset : 1e-4;
+    SphereLaw const sphere{law, 0.02};
+    for (double x : {0.3 * around, 0.9 * around, 1.1 * around, 30 * around}) {
+      double const h = 1e-4 * x;
+      auto const rate = [&](auto f) { return (f(x + h) - f(x - h)) / (2 * h); };
+      EXPECT_NEAR(rate([&](double y) { return law.energy_integral(y); }) / law.energy(x), 1, 1e-7);
+      EXPECT_NEAR(rate([&](double y) { return law.energy(y); }) / law.pressure(x), 1, 1e-7);
+      EXPECT_NEAR(rate([&](double y) { return law.pressure(y); }), law.slope(x), 1e-7 * law.slope(0));
+      EXPECT_NEAR(rate([&](double y) { return sphere.energy(y); }) / sphere.force(x), 1, 1e-7);
+      EXPECT_NEAR(rate([&](double y) { return sphere.force(y); }) / sphere.stiffness(x), 1, 1e-7);
+    }
+    double const below = around * (1 - 1e-12), above = around * (1 + 1e-12);
+    EXPECT_NEAR(law.pressure(below) / law.pressure(above), 1, 1e-11);
+    EXPECT_NEAR(law.energy(below) / law.energy(above), 1, 1e-11);
+    EXPECT_NEAR(law.energy_integral(below) / law.energy_integral(above), 1, 1e-11);
+  }
+}
+
+TEST(ContactLaws, ParametersMeanWhatTheirNamesSay) {
+  double const d = 0.1, k = 2e6, e = 1e9, nu = 0.25, deep = 1e-3;
+  // Equal spheres: slope k_n beyond the onset; Hertz's F = 4/3 E* sqrt(R) x^(3/2) with E* = E / (2 (1 - nu^2)).
+  PressureLaw const linear{ContactLaw::linear, linear_modulus(k, d), 1e-3 * d, 0.01 * d};
+  EXPECT_NEAR((SphereLaw{linear, d / 4}.stiffness(deep)) / k, 1, 1e-12);
+  PressureLaw const hertz{ContactLaw::hertz, hertz_modulus(e, nu), 1e-12 * d, 0.01 * d};
+  for (double radius : {d / 4, d / 2})
+    EXPECT_NEAR((SphereLaw{law_at_radius(hertz, radius), radius}.force(deep)) /
+                    (4.0 / 3 * e / (2 * (1 - nu * nu)) * std::sqrt(radius) * std::pow(deep, 1.5)),
+                1, 1e-9);
+}
+
 TEST(WinklerLaw, PressureAndSlopeAreDerivativesOfTheEnergy) {
-  WinklerLaw const law{3e9};
-  WinklerSphere const sphere{3e9, 0.02};
+  PressureLaw const law{ContactLaw::winkler, 3e9};
+  SphereLaw const sphere{law, 0.02};
   double const x = 1e-4, h = 1e-8;
   EXPECT_NEAR((law.energy(x + h) - law.energy(x - h)) / (2 * h) / law.pressure(x), 1, 1e-8);
   EXPECT_NEAR((law.pressure(x + h) - law.pressure(x - h)) / (2 * h) / law.slope(x), 1, 1e-8);
@@ -35,7 +97,7 @@ TEST(WinklerLaw, PressureAndSlopeAreDerivativesOfTheEnergy) {
   EXPECT_NEAR((sphere.force(x + h) - sphere.force(x - h)) / (2 * h) / sphere.stiffness(x), 1, 1e-7);
   // The case file's k_n: secant stiffness of two equal spheres at the reference overlap.
   double const d = 0.1, k = 2e6, at = 0.01 * d;
-  EXPECT_NEAR((WinklerSphere{winkler_modulus(k, d, at), d / 4}.force(at) / at), k, 1e-6 * k);
+  EXPECT_NEAR((SphereLaw{{ContactLaw::winkler, winkler_modulus(k, d, at)}, d / 4}.force(at) / at), k, 1e-6 * k);
 }
 
 // Validation row 7b: a stuck pair turned rigidly 2.25 times about its normal and about a tangent.
