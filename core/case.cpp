@@ -12,6 +12,7 @@
 #include "core/case_effects_text.h"
 #include "core/case_reader.h"
 #include "core/certificate_gate.h"
+#include "core/insert_file.h"
 #include "core/sampled_grains.h"
 
 namespace scree {
@@ -104,9 +105,17 @@ void read_contact(CaseReader r, ContactCase& out) {
 
 void read_insert(CaseReader r, InsertCase& out) {
   using Kind = InsertCase::Kind;
-  r.choice<Kind>("kind", out.kind, {{"lattice", Kind::lattice}, {"list", Kind::list}}, {"rate", "file"},
-                 Need::required);
-  if (out.kind == Kind::lattice) {
+  r.choice<Kind>("kind", out.kind,
+                 {{"lattice", Kind::lattice},
+                  {"list", Kind::list},
+                  {"random", Kind::random},
+                  {"rate", Kind::rate},
+                  {"file", Kind::file}},
+                 {}, Need::required);
+  if (out.kind == Kind::file) {
+    std::string file;
+    if (r.text("file", file, Need::required)) out.file = file;
+  } else if (out.kind != Kind::list) {
     std::vector<Vec3> corner;
     if (r.vectors("box", corner, Need::required)) {
       if (corner.size() == 2)
@@ -117,6 +126,10 @@ void read_insert(CaseReader r, InsertCase& out) {
   } else {
     r.vectors("position", out.position, Need::required);
     r.quaternions("quaternion", out.quaternion);
+  }
+  if (out.kind == Kind::rate) {
+    r.number("rate", out.rate, Need::required);
+    r.number("start", out.start);
   }
   bool const oriented = r.choice<Orientation>("orientation", out.orientation,
                                               {{"random", Orientation::random}, {"aligned", Orientation::aligned}});
@@ -179,9 +192,10 @@ void read_grains(CaseReader r, GrainsCase& out) {
   r.number("diameter", out.diameter, Need::required);
   auto insert = r.table("insert", Need::required);
   if (insert) read_insert(*insert, out.insert);
-  bool const listed = insert && out.insert.kind == InsertCase::Kind::list;
+  bool const filed = insert && out.insert.kind == InsertCase::Kind::file;  // counted when the file is read
+  bool const listed = filed || (insert && out.insert.kind == InsertCase::Kind::list);
   if (!r.integer("count", out.count, listed ? Need::optional : Need::required) && listed)
-    out.count = static_cast<int>(out.insert.position.size());
+    out.count = filed ? -1 : static_cast<int>(out.insert.position.size());
   r.unsupported({"replicas", "group"});
   r.finish();
 }
@@ -279,6 +293,28 @@ std::filesystem::path find_file(std::filesystem::path const& file, std::filesyst
   return {};
 }
 
+// Poses that grains take from files.
+void read_insert_files(Case& c, std::filesystem::path const& share, CaseProblems& problems) {
+  for (std::size_t i = 0; i < c.grains.size(); ++i) {
+    GrainsCase& g = c.grains[i];
+    if (g.insert.kind != InsertCase::Kind::file || g.insert.file.empty()) continue;  // an empty one is reported
+    std::string const key = fmt::format("grains.{}.insert.file", i);
+    std::vector<std::string> tried;
+    std::filesystem::path const found = find_file(g.insert.file, c.file.parent_path(), share, tried);
+    if (found.empty()) {
+      problems.add(key, fmt::format("'{}' was not found; tried {}", g.insert.file.string(), fmt::join(tried, ", ")));
+    } else {
+      g.insert.file = found;
+      try {
+        read_insert_file(g.insert);
+      } catch (std::runtime_error const& error) {
+        problems.add(key, error.what());
+      }
+    }
+    if (g.count < 0) g.count = static_cast<int>(g.insert.position.size());
+  }
+}
+
 void resolve_files(Case& c, std::filesystem::path const& share, CaseProblems& problems) {
   auto const resolved = [&](std::filesystem::path const& file, std::string const& key) {
     std::vector<std::string> tried;
@@ -334,6 +370,7 @@ Case load_case(std::filesystem::path const& file, std::vector<std::string> const
   c.name = file.stem().string();
   CaseProblems problems;
   read_case(CaseReader(root, "", problems), c);
+  read_insert_files(c, share, problems);
   // Values that could not be read keep their defaults: judging those would only repeat the complaint.
   std::size_t const unread = problems.found.size();
   for (CaseProblem& p : check_case(c)) {

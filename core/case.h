@@ -78,14 +78,20 @@ struct ContactCase {
 
 struct InsertCase {
   // lattice: cell centres of a cubic lattice filling `box` from the bottom, cell = the largest bounding diameter
-  // of the entry; list: explicit positions (and orientations).
-  enum class Kind { lattice, list } kind = Kind::lattice;
+  // of the entry; list: explicit positions (and orientations); random: all at the start, at random places of `box`
+  // where bounding spheres meet nothing; rate: the same, one after the other; file: poses from a table.
+  enum class Kind { lattice, list, random, rate, file } kind = Kind::lattice;
   Box box;  // [m]
   Orientation orientation = Orientation::random;
   Vec3 velocity;                 // [m/s]
   Vec3 spin;                     // [rad/s]
   std::vector<Vec3> position;    // list: [m]
   std::vector<Quat> quaternion;  // list: as many as positions, or empty
+  double rate = 0;               // rate: grains a second ...
+  double start = 0;              // ... from this time on [s]
+  std::filesystem::path file;    // file: comma-separated values (core/insert_file.h), which fill position, quaternion
+  std::vector<Vec3> velocities, spins;  // file: as many as positions, or empty: `velocity`, `spin`
+  std::vector<int> shape;               // file: index into the entry's shapes, patterns written out; or empty: shares
 };
 
 // Grains that never existed, each with a code of its own drawn from those of a category (shapes/generate.h).

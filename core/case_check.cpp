@@ -247,10 +247,16 @@ void Checker::insertion(std::string const& key, GrainsCase const& g) {
   InsertCase const& insert = g.insert;
   finite(key + ".insert.velocity", insert.velocity);
   finite(key + ".insert.spin", insert.spin);
-  if (insert.kind == InsertCase::Kind::list) {
-    if (g.count != static_cast<int>(insert.position.size()))
-      fail(key + ".count",
-           fmt::format("{} differs from the {} positions of insert: leave count out", g.count, insert.position.size()));
+  using Kind = InsertCase::Kind;
+  if (insert.kind == Kind::list || insert.kind == Kind::file) {
+    std::size_t const n = insert.position.size();
+    if (g.count != static_cast<int>(n))
+      fail(key + ".count", fmt::format("{} differs from the {} positions of insert: leave count out", g.count, n));
+    if (insert.kind == Kind::file && insert.file.empty())
+      fail(key + ".insert.file", "must name a file of comma-separated values");
+    for (std::size_t const other : {insert.velocities.size(), insert.spins.size(), insert.shape.size()})
+      if (other > 0 && other != n)
+        fail(key + ".insert.file", fmt::format("{} velocities, spins or shapes for {} positions", other, n));
     if (!insert.quaternion.empty() && insert.quaternion.size() != insert.position.size())
       fail(key + ".insert.quaternion", fmt::format("{} orientations for {} positions: give one each, or none",
                                                    insert.quaternion.size(), insert.position.size()));
@@ -267,6 +273,11 @@ void Checker::insertion(std::string const& key, GrainsCase const& g) {
     return fail(key + ".insert.box",
                 fmt::format("is {} x {} x {} m: the second corner must lie above the first on every axis", size.x,
                             size.y, size.z));
+  if (insert.kind == Kind::rate) {
+    positive(key + ".insert.rate", insert.rate, "grains a second");
+    range(key + ".insert.start", insert.start, 0, true, infinity, "seconds");
+  }
+  if (insert.kind != Kind::lattice) return;  // how many find a place is seen when they are placed
   // A cell is at least one equal-volume sphere wide; the real cell is known once the shapes are read.
   auto const cells = [&](double length) {
     return std::floor(length / g.diameter * (1 + 1e-9));

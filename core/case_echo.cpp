@@ -131,7 +131,17 @@ void write_grains(std::string& out, GrainsCase const& g) {
   InsertCase const& i = g.insert;
   std::string const moving =
       fmt::format("velocity = {}, spin = {}", vector(i.velocity), vector(i.spin));  // [m/s], [rad/s]
-  if (i.kind == InsertCase::Kind::lattice)
+  using Kind = InsertCase::Kind;
+  if (i.kind == Kind::random || i.kind == Kind::rate)
+    out += fmt::format("insert = {{ kind = \"{}\", box = {}, {}orientation = \"{}\", {} }}\n",
+                       i.kind == Kind::rate ? "rate" : "random", vectors({i.box.min, i.box.max}),
+                       i.kind == Kind::rate ? fmt::format("rate = {}, start = {}, ", i.rate, i.start) : "",
+                       to_string(i.orientation), moving);
+  else if (i.kind == Kind::file)
+    out += fmt::format(
+        "insert = {{ kind = \"file\", file = {}, {}{} }}\n", quoted(std::filesystem::absolute(i.file).string()),
+        i.quaternion.empty() ? fmt::format("orientation = \"{}\", ", to_string(i.orientation)) : "", moving);
+  else if (i.kind == Kind::lattice)
     out += fmt::format("insert = {{ kind = \"lattice\", box = {}, orientation = \"{}\", {} }}\n",
                        vectors({i.box.min, i.box.max}), to_string(i.orientation), moving);
   else if (i.quaternion.empty())

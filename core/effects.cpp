@@ -27,16 +27,21 @@ Effects effects_of(Case const& c, Scene const& scene) {
                         [](ForceCase const& f) { return norm2(f.force) > 0 || norm2(f.torque) > 0; });
   e.drag = c.drag && c.drag->density * c.drag->coefficient > 0;
   e.global_damping = c.damping && c.damping->rate > 0;
+  e.insertion = std::any_of(c.grains.begin(), c.grains.end(),
+                            [](GrainsCase const& g) { return g.insert.kind == InsertCase::Kind::rate && g.count > 0; });
   e.settle = c.time.settle.has_value();
   e.settle_damping = e.settle && c.time.settle->damping > 0;
   return e;
 }
 
 std::vector<std::string> stages_of(Effects const& e) {
-  std::vector<std::string> stages = {"bounds", "broad_phase"};
+  std::vector<std::string> stages;
   auto const add = [&](bool wanted, char const* name) {
     if (wanted) stages.push_back(name);
   };
+  add(e.insertion, "insertion");
+  add(true, "bounds");
+  add(true, "broad_phase");
   add(e.node_contacts, "node_gather");
   add(e.networks, "sdf_net");
   add(e.harmonics, "sdf_harmonics");
@@ -61,6 +66,7 @@ std::vector<std::string> names_of(Effects const& e) {
   if (e.force) names.push_back("force");
   if (e.drag) names.push_back("drag");
   if (e.global_damping) names.push_back("global damping");
+  if (e.insertion) names.push_back("insertion");
   if (e.friction) names.push_back("friction");
   if (e.damping) names.push_back("damping");
   if (e.settle) names.push_back("settle");
@@ -69,6 +75,7 @@ std::vector<std::string> names_of(Effects const& e) {
 
 std::vector<std::string> ledger_columns_of(Effects const& e) {
   std::vector<std::string> columns;
+  if (e.insertion) columns.push_back("inserted");
   if (e.force) columns.push_back("applied");
   if (e.drag) columns.push_back("drag");
   if (e.global_damping || e.settle_damping) columns.push_back("global_damping");

@@ -25,6 +25,7 @@ struct Effects {
   bool force = false;  // applied forces or torques
   bool drag = false;
   bool global_damping = false;  // [damping], all the time
+  bool insertion = false;       // over time
   bool settle = false;          // the settle schedule ...
   bool settle_damping = false;  // ... with a global damping that it switches
 };

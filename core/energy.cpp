@@ -17,7 +17,8 @@ LedgerRow make_ledger(Scene const& scene, std::optional<Vec3> gravity, State con
   auto const sum = [](std::vector<double> const& v) { return std::accumulate(v.begin(), v.end(), 0.0); };
   row.kinetic = sum(work.kinetic);
   if (gravity)
-    for (int i = 0; i < scene.bodies(); ++i) row.potential -= scene.mass[i] * dot(*gravity, state.position[i]);
+    for (int i = 0; i < scene.bodies(); ++i)
+      if (state.is_active(i)) row.potential -= scene.mass[i] * dot(*gravity, state.position[i]);
   for (PairResult const& r : work.result) {
     row.elastic_normal += r.energy_normal;
     row.elastic_tangential += r.energy_tangential;
@@ -26,12 +27,13 @@ LedgerRow make_ledger(Scene const& scene, std::optional<Vec3> gravity, State con
   row.damping = -sum(state.work_damping);
   row.friction = -sum(state.work_friction) - row.elastic_tangential;
   row.global_damping = sum(state.removed_by_damping);
+  row.inserted = state.inserted_energy;
   row.drag = sum(state.removed_by_drag);
   row.applied = sum(state.work_applied);
   row.residual = mechanical_energy(row) - state.initial_energy - row.inserted - row.wall_work - row.applied +
                  row.damping + row.friction + row.global_damping + row.drag + row.removed;
   row.moved = std::abs(row.damping) + std::abs(row.friction) + std::abs(row.global_damping) + std::abs(row.wall_work) +
-              std::abs(row.inserted) + std::abs(row.removed) + std::abs(row.drag) + std::abs(row.applied) +
+              state.exchanged_kinetic + std::abs(row.removed) + std::abs(row.drag) + std::abs(row.applied) +
               state.kinetic_peak;
   return row;
 }

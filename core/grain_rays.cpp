@@ -61,7 +61,7 @@ GrainRays::GrainRays(ResultsHeader const& header, Frame const& frame) : header_(
     rotation_.push_back(to_matrix(normalized(frame.orientation[i])));
     sum += header.diameter[i];
     Shape const& s = header.library.shape.at(static_cast<std::size_t>(header.shape[i]));
-    if (is_finite(frame.position[i]))
+    if (frame.is_active(i) && is_finite(frame.position[i]))
       balls_.push_back({frame.position[i], ball_margin * s.bounding_radius * header.diameter[i], static_cast<int>(i)});
   }
   if (n > 0) mean_diameter_ = sum / static_cast<double>(n);

@@ -23,7 +23,8 @@ struct RayHit {
 
 class GrainRays {
  public:
-  // Bodies at positions that are not finite are left out. Throws std::invalid_argument when frame and header disagree.
+  // Inactive bodies and those at positions that are not finite are left out. Throws std::invalid_argument when frame
+  // and header disagree.
   GrainRays(ResultsHeader const& header, Frame const& frame);
 
   // First grain along each ray, to 1e-4 of its diameter. `any`: the first one found will do (shadows).
@@ -36,7 +37,8 @@ class GrainRays {
   // Distance to the nearest grain, at most `reach`; outside the bounding balls by way of their nearest point.
   void clearance(std::vector<Vec3> const& points, double reach, std::vector<double>& distance) const;
 
-  Box bounds() const { return bounds_; }  // of all bounding balls [m]
+  bool empty() const { return balls_.empty(); }
+  Box bounds() const { return bounds_; }  // of all bounding balls [m]; nothing when empty
   double mean_diameter() const { return mean_diameter_; }
   Vec3 in_body_frame(int body, Vec3 world) const;  // [d]
 

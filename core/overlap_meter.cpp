@@ -64,9 +64,10 @@ struct Meter {
 
 // Pairs of bodies with overlapping bounding spheres, by a sweep along x, and all bodies with all walls.
 std::vector<OverlapAt> candidates(Meter const& meter) {
-  int const n = static_cast<int>(meter.frame.position.size());
-  std::vector<int> order(n);
-  std::iota(order.begin(), order.end(), 0);
+  std::vector<int> order;
+  for (std::size_t i = 0; i < meter.frame.position.size(); ++i)
+    if (meter.frame.is_active(i)) order.push_back(static_cast<int>(i));
+  int const n = static_cast<int>(order.size());
   auto const left = [&](int i) { return meter.frame.position[i].x - meter.radius(i); };
   std::stable_sort(order.begin(), order.end(), [&](int i, int j) { return left(i) < left(j); });
   std::vector<OverlapAt> pairs;
@@ -80,7 +81,8 @@ std::vector<OverlapAt> candidates(Meter const& meter) {
         pairs.push_back({0, std::min(i, j), std::max(i, j)});
     }
   }
-  for (int i = 0; i < n; ++i)
+  std::sort(order.begin(), order.end());
+  for (int const i : order)
     for (std::size_t w = 0; w < meter.header.wall.size(); ++w) pairs.push_back({0, i, -1 - static_cast<int>(w)});
   return pairs;
 }
@@ -125,7 +127,9 @@ OverlapReport measure_overlap(ResultsHeader const& header, Frame const& frame, i
   std::vector<OverlapAt> pairs = candidates(meter);
 #pragma omp parallel for schedule(dynamic, 4) num_threads(std::max(1, threads))
   for (std::size_t k = 0; k < pairs.size(); ++k) pairs[k] = meter.measure(pairs[k].a, pairs[k].b);
-  return summarise(pairs, header.shape.size());
+  std::size_t active = 0;
+  for (std::size_t i = 0; i < header.shape.size(); ++i) active += frame.is_active(i);
+  return summarise(pairs, active);
 }
 
 }  // namespace scree

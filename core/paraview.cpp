@@ -147,13 +147,19 @@ void ParaviewWriter::Data::write_grains(Frame const& frame) {
   VtkPolyData data;
   data.vertices = true;
   std::vector<double> orientation;
-  for (Vec3 const& x : frame.position) data.point.push_back(to_float(x));
-  for (Quat const& q : frame.orientation) orientation.insert(orientation.end(), {q.w, q.x, q.y, q.z});
-  data.point_data = body_data(frame, std::vector<int>(body.size(), 1));
-  data.point_data.push_back(vtk_array("position", frame.position));
-  data.point_data.push_back(vtk_array("spin", frame.spin));
+  std::vector<int> once;  // inactive bodies are left out
+  for (std::size_t i = 0; i < body.size(); ++i) {
+    once.push_back(frame.is_active(i));
+    if (!once[i]) continue;
+    Quat const q = frame.orientation[i];
+    data.point.push_back(to_float(frame.position[i]));
+    orientation.insert(orientation.end(), {q.w, q.x, q.y, q.z});
+  }
+  data.point_data = body_data(frame, once);
+  data.point_data.push_back(vtk_array("position", repeated(frame.position, once)));
+  data.point_data.push_back(vtk_array("spin", repeated(frame.spin, once)));
   data.point_data.push_back(vtk_array("orientation", orientation, 4));
-  data.point_data.push_back(vtk_array("diameter", header.diameter));
+  data.point_data.push_back(vtk_array("diameter", repeated(header.diameter, once)));
   std::string const name = fmt::format("frames/grains_{:05}.vtp", frames);
   write_vtp(folder / name, data);
   grains.push_back({frame.time, name, 0});
@@ -162,7 +168,12 @@ void ParaviewWriter::Data::write_grains(Frame const& frame) {
 
 void ParaviewWriter::Data::write_surfaces(Frame const& frame) {
   VtkPolyData data;
+  std::vector<int> count = triangles;
   for (std::size_t i = 0; i < body.size(); ++i) {
+    if (!frame.is_active(i)) {
+      count[i] = 0;
+      continue;
+    }
     TriangleMesh const& m = mesh[static_cast<std::size_t>(header.shape[i])];
     Mat3 const rotation = to_matrix(frame.orientation[i]);
     int const first = static_cast<int>(data.point.size());
@@ -170,7 +181,7 @@ void ParaviewWriter::Data::write_surfaces(Frame const& frame) {
       data.point.push_back(to_float(frame.position[i] + rotation * v * header.diameter[i]));
     for (std::array<int, 3> const& t : m.triangle) data.triangle.push_back({first + t[0], first + t[1], first + t[2]});
   }
-  data.cell_data = body_data(frame, triangles);
+  data.cell_data = body_data(frame, count);
   std::string const name = fmt::format("frames/surfaces_{:05}.vtp", frames);
   write_vtp(folder / name, data);
   scene.push_back({frame.time, name, 0});

@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
+
+#include "core/free_spots.h"
 
 namespace scree {
 namespace {
@@ -59,45 +62,142 @@ std::mt19937_64 random_stream(std::uint64_t seed, int group, Draw purpose) {
 std::vector<int> assign_shapes(Case const& c, int group, std::vector<int> const& templates) {
   int const n = c.grains[group].count;
   std::vector<int> shape(n);
+  if (std::vector<int> const& chosen = c.grains[group].insert.shape; !chosen.empty()) {
+    for (int i = 0; i < n; ++i) shape[i] = templates[chosen[i]];
+    return shape;
+  }
   for (int i = 0; i < n; ++i) shape[i] = templates[i % templates.size()];
   std::mt19937_64 random = random_stream(c.seed, group, Draw::shapes);
   for (int i = n - 1; i > 0; --i) std::swap(shape[i], shape[static_cast<int>(uniform(random) * (i + 1))]);
   return shape;
 }
 
+namespace {
+
+// Lattices by their boxes, made as they are asked for; null: the entry does not fit and was reported.
+class Lattices {
+ public:
+  Lattices(Case const& c, Scene const& scene, std::vector<std::string>& found) : c_(c), scene_(scene), found_(found) {}
+
+  Lattice* of(std::size_t group) {
+    GrainsCase const& grains = c_.grains[group];
+    Box const& box = grains.insert.box;
+    auto at = std::find_if(made_.begin(), made_.end(), [&](auto const& l) { return same_box(l.first, box); });
+    if (at == made_.end()) at = made_.insert(made_.end(), {box, lattice_for(c_, scene_, box)});
+    Lattice& lattice = at->second;
+    if (lattice.used + grains.count <= lattice.capacity()) return &lattice;
+    found_.push_back("grains '" + grains.name + "': insert.box holds " + std::to_string(lattice.capacity()) +
+                     " grains (cell " + std::to_string(lattice.cell) + " m), but " +
+                     std::to_string(lattice.used + grains.count) +
+                     " are to start in it. Make the box larger or count smaller.");
+    return nullptr;
+  }
+
+ private:
+  Case const& c_;
+  Scene const& scene_;
+  std::vector<std::string>& found_;
+  std::vector<std::pair<Box, Lattice>> made_;
+};
+
+// Where grains wait that are inserted later: the corner of their box that gravity leaves highest, so that the fall
+// from it bounds the speed they will have.
+Vec3 waiting_place(Case const& c, Box const& box) {
+  Vec3 const g = c.gravity.value_or(Vec3{});
+  Vec3 place;
+  for (int k = 0; k < 3; ++k) place[k] = g[k] > 0 ? box.min[k] : box.max[k];
+  return place;
+}
+
+double bounding_radius(Scene const& scene, int body) {
+  return scene.shape[scene.shape_of[body]].bounding_radius * scene.diameter[body];
+}
+
+// Draws for a grain before it is refused: random placement of spheres slows down without bound near 38 % by volume.
+int constexpr random_tries = 20000;
+
+// Entries with insert.kind = "random", once all others that are there at the start have their places.
+void place_at_random(Case const& c, Scene const& scene, Placement& out, std::vector<std::string>& found) {
+  auto const kind_of = [&](int body) { return c.grains[scene.group_of[body]].insert.kind; };
+  int const n = scene.bodies();
+  double largest = 0;
+  bool wanted = false;
+  for (int i = 0; i < n; ++i) {
+    largest = std::max(largest, bounding_radius(scene, i));
+    wanted = wanted || kind_of(i) == InsertCase::Kind::random;
+  }
+  if (!wanted) return;
+  SphereGrid grid(largest);
+  for (int i = 0; i < n; ++i)
+    if (kind_of(i) != InsertCase::Kind::random && kind_of(i) != InsertCase::Kind::rate)
+      grid.add(out.position[i], bounding_radius(scene, i));
+  std::uint64_t random = 0;
+  for (int i = 0, first = 0; i < n; ++i) {
+    if (kind_of(i) != InsertCase::Kind::random) continue;
+    int const group = scene.group_of[i];
+    if (i == 0 || scene.group_of[i - 1] != group) first = i, random = random_stream(c.seed, group, Draw::places)();
+    GrainsCase const& grains = c.grains[group];
+    // A little larger, so that rounding leaves no overlap.
+    double const radius = bounding_radius(scene, i) * (1 + 1e-9);
+    std::optional<Vec3> const spot = find_free_spot(grains.insert.box, radius, grid, scene.plane, random_tries, random);
+    if (!spot) {
+      found.push_back("grains '" + grains.name + "': grain " + std::to_string(i - first + 1) + " of " +
+                      std::to_string(grains.count) + ", bounding diameter " + std::to_string(2 * radius) +
+                      " m, found no free place in insert.box in " + std::to_string(random_tries) +
+                      " random tries (inside the box, in front of the walls, clear of other grains). Make the box "
+                      "larger or count smaller; kind = \"lattice\" packs closer.");
+      return;
+    }
+    out.position[i] = *spot;
+    grid.add(*spot, radius);
+  }
+}
+
+// Entries inserted over time need a place at least while nothing else is there.
+void check_later_places(Case const& c, Scene const& scene, std::vector<std::string>& found) {
+  std::vector<double> largest(c.grains.size(), 0);
+  for (int i = 0; i < scene.bodies(); ++i)
+    largest[scene.group_of[i]] = std::max(largest[scene.group_of[i]], bounding_radius(scene, i));
+  for (std::size_t g = 0; g < c.grains.size(); ++g) {
+    GrainsCase const& grains = c.grains[g];
+    if (grains.insert.kind != InsertCase::Kind::rate || grains.count == 0) continue;
+    std::uint64_t random = 1;
+    SphereGrid const empty(largest[g]);
+    if (find_free_spot(grains.insert.box, largest[g], empty, scene.plane, random_tries, random)) continue;
+    found.push_back("grains '" + grains.name + "': a grain of bounding diameter " + std::to_string(2 * largest[g]) +
+                    " m has no place in insert.box, inside it and in front of the walls, even while it is empty. Make "
+                    "the box larger.");
+  }
+}
+
+}  // namespace
+
 Placement place_grains(Case const& c, Scene const& scene, std::vector<std::string>& found) {
+  using Kind = InsertCase::Kind;
   Placement out;
-  std::vector<std::pair<Box, Lattice>> lattices;
-  int body = 0;
+  Lattices lattices(c, scene, found);
   for (std::size_t g = 0; g < c.grains.size(); ++g) {
     InsertCase const& insert = c.grains[g].insert;
     std::mt19937_64 random = random_stream(c.seed, static_cast<int>(g), Draw::poses);
     Lattice* lattice = nullptr;
-    if (insert.kind == InsertCase::Kind::lattice && c.grains[g].count > 0) {
-      auto at =
-          std::find_if(lattices.begin(), lattices.end(), [&](auto const& l) { return same_box(l.first, insert.box); });
-      if (at == lattices.end()) at = lattices.insert(lattices.end(), {insert.box, lattice_for(c, scene, insert.box)});
-      lattice = &at->second;
-      if (lattice->used + c.grains[g].count > lattice->capacity()) {
-        found.push_back("grains '" + c.grains[g].name + "': insert.box holds " + std::to_string(lattice->capacity()) +
-                        " grains (cell " + std::to_string(lattice->cell) + " m), but " +
-                        std::to_string(lattice->used + c.grains[g].count) +
-                        " are to start in it. Make the box larger or count smaller.");
-        return out;
-      }
-    }
-    for (int i = 0; i < c.grains[g].count; ++i, ++body) {
-      out.position.push_back(lattice ? lattice->site(lattice->used++) : insert.position[i]);
+    if (insert.kind == Kind::lattice && c.grains[g].count > 0 && !(lattice = lattices.of(g))) return out;
+    bool const listed = insert.kind == Kind::list || insert.kind == Kind::file;
+    for (int i = 0; i < c.grains[g].count; ++i) {
+      out.position.push_back(lattice  ? lattice->site(lattice->used++)
+                             : listed ? insert.position[i]
+                                      : waiting_place(c, insert.box));
       Quat orientation;
       if (!insert.quaternion.empty())
         orientation = normalized(insert.quaternion[i]);
       else if (insert.orientation == Orientation::random)
         orientation = random_orientation(random);
       out.orientation.push_back(orientation);
-      out.velocity.push_back(insert.velocity);
-      out.spin.push_back(insert.spin);
+      out.velocity.push_back(insert.velocities.empty() ? insert.velocity : insert.velocities[i]);
+      out.spin.push_back(insert.spins.empty() ? insert.spin : insert.spins[i]);
     }
   }
+  place_at_random(c, scene, out, found);
+  check_later_places(c, scene, found);
   return out;
 }
 

@@ -82,7 +82,7 @@ struct Sample {
 class Painter {
  public:
   Painter(ResultsHeader const& header, Frame const& frame, RenderOptions const& options)
-      : grains_(header, frame), stage_(header, frame.position.empty() ? header.domain : grains_.bounds()) {
+      : grains_(header, frame), stage_(header, grains_.empty() ? header.domain : grains_.bounds()) {
     camera_ = options.camera ? *options.camera : fitted_camera(stage_.shown(), options);
     size_ = std::max(norm(stage_.shown().max - stage_.shown().min), 1e-9);
     pixel_ = camera_.field_of_view / options.height;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "kernels/base/vec.h"
+#include "kernels/views.h"
 #include "shapes/shape.h"
 
 namespace scree {
@@ -28,16 +29,20 @@ struct ResultsHeader {
   std::vector<int> material, group, replica;  // (n)
   std::vector<ResultsWall> wall;
   Box domain;                       // of walls and initial grains, for cameras [m]
+  bool activity = false;            // frames say which bodies are active
   std::vector<std::string> ledger;  // columns beyond those of every run, see results_layout.h
 };
 
 struct Frame {
   double time = 0;  // [s]
   std::int64_t step = 0;
-  std::vector<Vec3> position;     // [m] (n)
-  std::vector<Quat> orientation;  // body -> world (n)
-  std::vector<Vec3> velocity;     // [m/s] (n)
-  std::vector<Vec3> spin;         // world [rad/s] (n)
+  std::vector<Vec3> position;      // [m] (n)
+  std::vector<Quat> orientation;   // body -> world (n)
+  std::vector<Vec3> velocity;      // [m/s] (n)
+  std::vector<Vec3> spin;          // world [rad/s] (n)
+  std::vector<Activity> activity;  // (n); empty: all are active
+
+  bool is_active(std::size_t body) const { return activity.empty() || activity[body] == Activity::active; }
 };
 
 struct LedgerRow {  // [J]; see core/energy.h

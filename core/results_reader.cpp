@@ -98,6 +98,7 @@ struct ResultsReader::Data {
     file = hdf5::open_file(path.string());
     header = read_header(file);
     hdf5::Handle const group = hdf5::open_group(file, "/frames");
+    header.activity = hdf5::has_dataset(group, "activity");
     hsize_t const n = header.shape.size();
     auto const rows = [&](char const* dataset, results_hdf5::Extent const& inner) {
       return results_hdf5::checked_rows(results_hdf5::open_dataset(group, dataset), dataset, inner);
@@ -105,6 +106,7 @@ struct ResultsReader::Data {
     // A run killed between two arrays of one frame leaves some of them longer: that frame does not count.
     frames = static_cast<int>(std::min({rows("time", {}), rows("step", {}), rows("position", {n, 3}),
                                         rows("orientation", {n, 4}), rows("velocity", {n, 3}), rows("spin", {n, 3})}));
+    if (header.activity) frames = std::min(frames, static_cast<int>(rows("activity", {n})));
   }
 
   template <class Work>
@@ -165,6 +167,13 @@ Frame ResultsReader::frame(int index) const {
     read("orientation", {n, 4}, H5T_NATIVE_DOUBLE, f.orientation.data());
     read("velocity", {n, 3}, H5T_NATIVE_DOUBLE, f.velocity.data());
     read("spin", {n, 3}, H5T_NATIVE_DOUBLE, f.spin.data());
+    if (d.header.activity) {
+      f.activity.resize(n);
+      read("activity", {n}, H5T_NATIVE_UINT8, f.activity.data());
+      bool const known =
+          std::all_of(f.activity.begin(), f.activity.end(), [](Activity a) { return a <= Activity::deleted; });
+      if (!known) throw std::runtime_error("dataset 'activity' holds a number that is none of 0, 1, 2");
+    }
     return f;
   });
 }

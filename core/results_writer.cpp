@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fstream>
 #include <iterator>
+#include <optional>
 #include <stdexcept>
 #include <system_error>
 
@@ -86,6 +87,7 @@ struct ResultsWriter::Data {
   hdf5::Handle frames;
   Series<double> time, position, orientation, velocity, spin, ledger;
   Series<std::int64_t> step;
+  std::optional<Series<std::uint8_t>> activity;
 
   Data(fs::path const& name, ResultsHeader const& header)
       : final_name(name),
@@ -103,6 +105,7 @@ struct ResultsWriter::Data {
     orientation = {frames, "orientation", {n, 4}};
     velocity = {frames, "velocity", {n, 3}};
     spin = {frames, "spin", {n, 3}};
+    if (header.activity) activity.emplace(frames, "activity", results_hdf5::Extent{n});
     ledger = {file, "ledger", {column.size()}};
     flush();
   }
@@ -145,13 +148,14 @@ ResultsWriter::~ResultsWriter() = default;
 void ResultsWriter::write_frame(Frame const& frame) {
   Data& d = *data_;
   if (frame.position.size() != d.bodies || frame.orientation.size() != d.bodies || frame.velocity.size() != d.bodies ||
-      frame.spin.size() != d.bodies)
+      frame.spin.size() != d.bodies || (d.activity && frame.activity.size() != d.bodies))
     throw std::invalid_argument("write_frame: the frame does not have the header's number of bodies");
   d.guarded([&] {
     d.position.append(reinterpret_cast<double const*>(frame.position.data()));
     d.orientation.append(reinterpret_cast<double const*>(frame.orientation.data()));
     d.velocity.append(reinterpret_cast<double const*>(frame.velocity.data()));
     d.spin.append(reinterpret_cast<double const*>(frame.spin.data()));
+    if (d.activity) d.activity->append(reinterpret_cast<std::uint8_t const*>(frame.activity.data()));
     d.step.append(&frame.step);
     d.time.append(&frame.time);
     d.flush();
@@ -187,6 +191,7 @@ void ResultsWriter::finish(std::vector<StageRow> const& stages) {
     }
     for (Series<double>* series : {&d.time, &d.position, &d.orientation, &d.velocity, &d.spin, &d.ledger}) *series = {};
     d.step = {};
+    d.activity.reset();
     d.frames = {};
     d.file.close("cannot be written; is the disk full?");
     seal_container(d.temporary, d.final_name, results_layout::kind, results_layout::version);

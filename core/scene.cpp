@@ -163,6 +163,13 @@ Scene build_scene(Case const& c, int threads, Placement& placement) {
   for (std::size_t g = 0; g < c.grains.size(); ++g)
     if (c.grains[g].sample || c.grains[g].interpolate)
       templates[g] = catalogue.make_templates(c, static_cast<int>(g), scene, threads, found);
+  for (std::size_t g = 0; g < c.grains.size(); ++g)
+    for (int const shape : c.grains[g].insert.shape)
+      if (shape >= static_cast<int>(templates[g].size())) {
+        found.push_back("grains '" + c.grains[g].name + "': insert.file asks for shape " + std::to_string(shape) +
+                        ", but `shapes` names " + std::to_string(templates[g].size()) + " (0 is the first)");
+        break;
+      }
   if (!found.empty()) throw InputError(found);
   catalogue.finish(scene, templates, threads, found);
   add_bodies(c, templates, scene);

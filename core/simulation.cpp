@@ -9,6 +9,7 @@
 
 #include "core/effect_stages.h"
 #include "core/energy.h"
+#include "core/insertion.h"
 #include "core/simulation_impl.h"
 #include "kernels/body_effects.h"
 #include "kernels/integrate.h"
@@ -40,6 +41,7 @@ Simulation::Impl::Impl(Case const& c_, SimulationOptions const& options_, Frame 
   for (auto* v : {&state.work_damping, &state.work_friction, &state.removed_by_damping}) v->assign(n, 0);
   if (effects.force) state.work_applied.assign(n, 0);
   if (effects.drag) state.removed_by_drag.assign(n, 0);
+  if (effects.insertion) start_insertion(c, scene, start, state);
   work.external.assign(n, {});
   if (effects.gravity) apply_gravity(queue, scene.view(), *c.gravity, work.external);
   // Free flight needs no small step, but output does: at least a hundred steps a run.
@@ -61,6 +63,7 @@ RunState Simulation::Impl::step() {
   if (run_state != RunState::running) return run_state;
   SceneView const view = scene.view();
   double const dt = state.time_step;
+  if (effects.insertion) insert_due(queue, c, scene, state, work, messages);
   WorkView const work_done{state.work_damping, state.work_friction, state.work_applied};
   brake_bodies(queue, c, effects, view, dt / 2, state);
   if (effects.force) push_bodies(queue, c, scene, state.time, state.time + dt / 2, work);
@@ -80,6 +83,7 @@ RunState Simulation::Impl::step() {
   check_time_step();
   if (effects.settle) settle();
   if (run_state == RunState::running && state.time >= c.time.end * (1 - 1e-12)) run_state = RunState::ended;
+  if (run_state != RunState::running && effects.insertion) report_insertion(c, state, messages);
   return run_state;
 }
 
@@ -126,7 +130,7 @@ void Simulation::Impl::check_time_step() {
 void Simulation::Impl::settle() {
   SettleCase const& s = *c.time.settle;
   if (state.time < s.after) return;
-  bool const quiet = report.kinetic_largest <= s.kinetic_per_grain;
+  bool const quiet = report.kinetic_largest <= s.kinetic_per_grain && all_inserted(c, state);
   if (!quiet) {
     state.damped = true;
     state.quiet_since = -1;

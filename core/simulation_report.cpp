@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/certificate_gate.h"
+#include "core/insertion.h"
 #include "core/simulation_impl.h"
 #include "core/unique_grains.h"
 
@@ -64,6 +65,7 @@ std::vector<Plan::Array> arrays_of(Simulation::Impl const& s) {
   add(s.effects.friction, "contact history",
       bytes(s.state.node_history.xi) + bytes(s.state.node_history.node) + bytes(s.state.sphere_history.xi));
   add(s.effects.force, "applied forces", bytes(s.work.applied) + bytes(s.state.work_applied));
+  add(!s.state.activity.empty(), "activity", bytes(s.state.activity) + bytes(s.state.insertion));
   add(s.effects.drag, "drag", bytes(s.state.removed_by_drag));
   return arrays;
 }
@@ -94,6 +96,7 @@ Plan Simulation::plan() const {
         "{} compact grains of {} bytes each: nodes {}, culling {}, folded bias {}, records {}, code and mass {}",
         b.grains, b.total() / b.grains, b.nodes / b.grains, b.culling / b.grains, b.bias / b.grains,
         b.record / b.grains, b.host / b.grains));
+  for (std::string& note : insertion_notes(s.c)) plan.notes.push_back(std::move(note));
   if (plan.bodies == 0) plan.notes.push_back("the case has no grains");
   if (std::isfinite(s.estimate.critical)) {
     plan.notes.push_back(fmt::format(
@@ -123,14 +126,23 @@ ResultsHeader Simulation::results_header() const {
   header.replica.assign(s.scene.bodies(), 0);
   for (PlaneRecord const& plane : s.scene.plane)
     header.wall.push_back({s.c.wall[plane.wall].name, plane.point, plane.normal});
+  header.activity = !s.state.activity.empty();
   header.ledger = ledger_columns_of(s.effects);
   Box& domain = header.domain;
   domain = {{1e300, 1e300, 1e300}, {-1e300, -1e300, -1e300}};
   for (int i = 0; i < s.scene.bodies(); ++i) {
+    if (!s.state.is_active(i)) continue;
     double const r = s.scene.shape[s.scene.shape_of[i]].bounding_radius * s.scene.diameter[i];
     for (int k = 0; k < 3; ++k) {
       domain.min[k] = std::min(domain.min[k], s.state.position[i][k] - r);
       domain.max[k] = std::max(domain.max[k], s.state.position[i][k] + r);
+    }
+  }
+  for (GrainsCase const& grains : s.c.grains) {
+    if (grains.insert.kind != InsertCase::Kind::rate) continue;
+    for (int k = 0; k < 3; ++k) {
+      domain.min[k] = std::min(domain.min[k], grains.insert.box.min[k]);
+      domain.max[k] = std::max(domain.max[k], grains.insert.box.max[k]);
     }
   }
   for (WallCase const& wall : s.c.wall) {
@@ -147,7 +159,8 @@ ResultsHeader Simulation::results_header() const {
 
 Frame Simulation::frame() const {
   Impl const& s = *impl_;
-  Frame frame{s.state.time, s.state.step, s.state.position, s.state.orientation, s.state.velocity, {}};
+  Frame frame{s.state.time,     s.state.step, s.state.position, s.state.orientation,
+              s.state.velocity, {},           s.state.activity};
   for (int i = 0; i < s.scene.bodies(); ++i)
     frame.spin.push_back(spin_of(to_matrix(s.state.orientation[i]), s.scene.inertia[i], s.state.angular_momentum[i]));
   return frame;

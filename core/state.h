@@ -11,6 +11,15 @@
 
 namespace scree {
 
+// Insertion over time of one [[grains]] entry, in the order of its bodies.
+struct Insertion {
+  int done = 0;               // bodies inserted
+  std::uint64_t random = 0;   // of the places tried
+  double blocked_since = -1;  // [s]; -1: not blocked
+  std::int64_t blocked_times = 0;
+  double blocked_seconds = 0;  // of the times that are over
+};
+
 struct State {
   std::vector<Vec3> position, velocity, angular_momentum;
   std::vector<Quat> orientation;
@@ -21,13 +30,21 @@ struct State {
   std::vector<double> work_applied, removed_by_drag;                    // ... (n_bodies), empty without the effect
   double time = 0, time_step = 0;                                       // [s]
   std::int64_t step = 0;
+  // Of runs with insertion over time or deletion; else empty.
+  std::vector<Activity> activity;    // (n_bodies)
+  std::vector<Insertion> insertion;  // (n_groups); empty without insertion over time
   // Settle schedule.
   bool damped = false;
   double quiet_since = -1;  // [s]; -1: not quiet
   // Ledger.
   double initial_energy = 0, kinetic_peak = 0;  // [J]
+  double inserted_energy = 0;                   // kinetic and potential energy that insertion brought in [J]
+  double exchanged_kinetic = 0;  // kinetic energy of all that came or went: potential energy has no zero to be moved
+                                 // against [J]
 
-  StateView view() { return {position, orientation, velocity, angular_momentum}; }
+  bool is_active(int body) const { return activity.empty() || activity[body] == Activity::active; }
+
+  StateView view() { return {position, orientation, velocity, angular_momentum, activity}; }
 };
 
 struct Workspace {

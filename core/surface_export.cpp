@@ -11,6 +11,7 @@ std::vector<TriangleMesh> grain_meshes(ResultsHeader const& header, Frame const&
   for (Shape const& shape : header.library.shape) of_shape.push_back(light_mesh(header.library, shape, triangles));
   std::vector<TriangleMesh> grain;
   for (std::size_t i = 0; i < header.shape.size(); ++i) {
+    if (!frame.is_active(i)) continue;
     grain.push_back(of_shape[static_cast<std::size_t>(header.shape[i])]);
     Mat3 const rotation = to_matrix(frame.orientation[i]);
     for (Vec3& v : grain.back().vertex) v = frame.position[i] + rotation * v * header.diameter[i];

@@ -15,7 +15,7 @@ struct KineticOfBody {
   StateView state;
   Span<double> kinetic;
 
-  SCREE_HD void operator()(int i) const { kinetic[i] = kinetic_energy(scene, state, i); }
+  SCREE_HD void operator()(int i) const { kinetic[i] = state.active(i) ? kinetic_energy(scene, state, i) : 0; }
 };
 
 }  // namespace

@@ -23,6 +23,7 @@ struct GlobalDamping {
   Span<double> removed;
 
   SCREE_HD void operator()(int i) const {
+    if (!state.active(i)) return;
     double const before = kinetic_energy(scene, state, i);
     state.velocity[i] *= keep;
     state.angular_momentum[i] *= keep;
@@ -38,6 +39,7 @@ struct Drag {
   Span<double> removed;
 
   SCREE_HD void operator()(int i) const {
+    if (!state.active(i)) return;
     double constexpr quarter_pi = 0.78539816339744831;
     double const m = scene.mass[i], d = scene.diameter[i];
     double const k = 0.5 * drag.density * drag.coefficient * quarter_pi * d * d / m;

@@ -14,6 +14,10 @@ struct BoundsOfBody {
   Span<Box> box;
 
   SCREE_HD void operator()(int i) const {
+    if (!state.active(i)) {
+      box[i] = empty_box();
+      return;
+    }
     Box const& local = scene.shape_record(i).box;
     double const d = scene.diameter[i];
     Mat3 const rotation = to_matrix(state.orientation[i]);

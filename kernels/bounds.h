@@ -8,7 +8,7 @@
 
 namespace scree {
 
-// box[i] = axis-aligned box of body i, grown by skin[i] [m] on every side (n_bodies).
+// box[i] = axis-aligned box of body i, grown by skin[i] [m] on every side; empty for inactive bodies (n_bodies).
 void compute_bounds(Queue const& queue, SceneView const& scene, StateView const& state, Span<const double> skin,
                     Span<Box> box);
 

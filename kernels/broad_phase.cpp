@@ -93,6 +93,10 @@ struct PairsOfBody {
 
   SCREE_HD void operator()(int body) const {
     Box const mine = box[body];
+    if (is_empty(mine)) {  // an inactive body opens no pairs, not with walls either, whose boxes may have no end
+      if (pair.empty()) count[body] = 0;
+      return;
+    }
     int n = 0;
     for (int p = 0; p < plane.size(); ++p) {
       Vec3 const normal = plane[p].normal;

@@ -36,6 +36,7 @@ struct OpenStep {
   WorkView work;
 
   SCREE_HD void operator()(int i) const {
+    if (!state.active(i)) return;
     Vec3 v, l;
     half_kick(scene, state, wrenches, dt, i, v, l);
     account(scene, state, wrenches, dt, i, v, l, work);
@@ -54,6 +55,7 @@ struct CloseStep {
   WorkView work;
 
   SCREE_HD void operator()(int i) const {
+    if (!state.active(i)) return;
     account(scene, state, wrenches, dt, i, state.velocity[i], state.angular_momentum[i], work);
     Vec3 v, l;
     half_kick(scene, state, wrenches, dt, i, v, l);

@@ -84,11 +84,17 @@ struct SceneView {
   SCREE_HD ShapeRecord const& shape_record(int body) const { return shape[shape_of[body]]; }
 };
 
+// Bodies that are inserted or deleted during a run exist from its start to its end; only the active ones take part.
+enum class Activity : unsigned char { pending, active, deleted };
+
 struct StateView {
-  Span<Vec3> position;          // of the centroid [m] (n_bodies)
-  Span<Quat> orientation;       // body -> world (n_bodies)
-  Span<Vec3> velocity;          // [m/s] (n_bodies)
-  Span<Vec3> angular_momentum;  // about the centroid, world frame [kg m2/s] (n_bodies)
+  Span<Vec3> position;            // of the centroid [m] (n_bodies)
+  Span<Quat> orientation;         // body -> world (n_bodies)
+  Span<Vec3> velocity;            // [m/s] (n_bodies)
+  Span<Vec3> angular_momentum;    // about the centroid, world frame [kg m2/s] (n_bodies)
+  Span<const Activity> activity;  // (n_bodies); empty: all are active
+
+  SCREE_HD bool active(int i) const { return activity.empty() || activity[i] == Activity::active; }
 };
 
 // Spin [rad/s] of a body from its angular momentum.

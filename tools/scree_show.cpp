@@ -64,6 +64,11 @@ void describe_results(fs::path const& file, bool recover) {
   if (reader.frames() > 0) {
     Frame const first = reader.frame(0), last = reader.frame(-1);
     fmt::print("t {:g} ... {:g} s, step {} ... {}\n", first.time, last.time, grouped(first.step), grouped(last.step));
+    if (h.activity) {
+      auto const count = [&](Activity a) { return std::count(last.activity.begin(), last.activity.end(), a); };
+      fmt::print("bodies at the end: {} active, {} not inserted, {} deleted\n", count(Activity::active),
+                 count(Activity::pending), count(Activity::deleted));
+    }
   }
   print_networks(h.library);
   print_shapes(h.library);

@@ -42,7 +42,7 @@ int export_surfaces(ExportArguments const& a) {
   std::vector<fs::path> file;
   if (a.per_grain) {
     for (std::size_t i = 0; i < reader.header().shape.size(); ++i)
-      file.push_back(target / fmt::format("grain_{:06}.{}", i, a.format));
+      if (frame.is_active(i)) file.push_back(target / fmt::format("grain_{:06}.{}", i, a.format));
   } else {
     file.push_back(target);
     if (target.extension() != "." + a.format)

@@ -102,5 +102,8 @@ SCREE_HD inline Mat3 to_matrix(Quat q) {
 struct Box {
   Vec3 min, max;
 };
+// A box that contains nothing, meets nothing and leaves every union as it is. Finite: 0 times infinity is no number.
+SCREE_HD inline Box empty_box() { return {{1e300, 1e300, 1e300}, {-1e300, -1e300, -1e300}}; }
+SCREE_HD inline bool is_empty(Box const& b) { return b.min.x > b.max.x; }
 
 }  // namespace scree

@@ -340,6 +340,58 @@ TEST_F(CaseFile, EffectsOnBodies) {
   EXPECT_TRUE(!plain.drag && !plain.damping && plain.force.empty());
 }
 
+TEST_F(CaseFile, InsertionAtRandomAndByRate) {
+  std::string const lattice = "kind = \"lattice\", box = [[0, 0, 0], [1, 1, 4]]";
+  Case const random = load(with(minimal, "lattice", "random"));
+  EXPECT_EQ(random.grains.at(0).insert.kind, InsertCase::Kind::random);
+  EXPECT_EQ(to_toml(load(to_toml(random))), to_toml(random));
+  std::string const text =
+      with(minimal, lattice, "kind = \"rate\", box = [[0, 0, 0], [1, 1, 4]], rate = 20, start = 0.5");
+  Case const rate = load(text);
+  EXPECT_EQ(rate.grains.at(0).insert.kind, InsertCase::Kind::rate);
+  EXPECT_EQ(rate.grains[0].insert.rate, 20);
+  EXPECT_EQ(rate.grains[0].insert.start, 0.5);
+  EXPECT_EQ(to_toml(load(to_toml(rate))), to_toml(rate));
+  expect_one(refused(text, {"grains.mix.insert.rate=0"}), {"grains.mix.insert.rate: 0 is out of range: must be > 0"});
+  expect_one(refused(text, {"grains.mix.insert.start=-1"}), {"grains.mix.insert.start: -1"});
+  expect_one(refused(with(text, "rate = 20, ", "")), {"grains.mix.insert.rate: is missing"});
+  expect_one(refused(with(minimal, "box = [", "rate = 3, box = [")), {"insert.rate: is an unknown key"});
+  expect_one(refused(text, {"grains.mix.insert.box=[[0, 0, 0], [1, -1, 1]]"}), {"insert.box", "above the first"});
+}
+
+TEST_F(CaseFile, InsertionFromAFile) {
+  std::string const text = with(with(minimal, "kind = \"lattice\", box = [[0, 0, 0], [1, 1, 4]]",
+                                     "kind = \"file\", file = \"grains.csv\", velocity = [1, 0, 0]"),
+                                "count = 5\n", "");
+  expect_one(refused(text), {"grains.mix.insert.file: 'grains.csv' was not found; tried"});
+  write("shape,x,y,z,qw,qx,qy,qz,wx,wy,wz\n1, 0.5,0,1, 1,0,0,0, 7,8,9\n0, -2,1e-1,3, 0,0,0.6,0.8, 0,0,1\r\n",
+        "grains.csv");
+  Case const a = load(text);
+  for (Case const& c : {a, load(to_toml(a))}) {
+    EXPECT_EQ(c.grains.at(0).count, 2);
+    EXPECT_EQ(c.grains[0].insert.position, (std::vector<Vec3>{{0.5, 0, 1}, {-2, 0.1, 3}}));
+    EXPECT_EQ(c.grains[0].insert.quaternion, (std::vector<Quat>{{1, 0, 0, 0}, {0, 0, 0.6, 0.8}}));
+    EXPECT_EQ(c.grains[0].insert.spins, (std::vector<Vec3>{{7, 8, 9}, {0, 0, 1}}));
+    EXPECT_EQ(c.grains[0].insert.shape, (std::vector<int>{1, 0}));
+    EXPECT_TRUE(c.grains[0].insert.velocities.empty());
+    EXPECT_EQ(c.grains[0].insert.velocity, (Vec3{1, 0, 0}));
+  }
+  expect_one(refused(text, {"grains.mix.count=3"}), {"grains.mix.count: 3 differs from the 2 positions"});
+  auto const file_refused = [&](std::string const& table, std::string const& what) {
+    write(table, "grains.csv");
+    expect_one(refused(text), {"grains.mix.insert.file: ", "grains.csv", what});
+  };
+  file_refused("", "is empty");
+  file_refused("x,y,z,v\n", ":1: unknown column 'v'");
+  file_refused("x,y\n", "column 'z' is missing");
+  file_refused("x,y,z,vy,vz\n", "column 'vx' is missing beside 'vy'");
+  file_refused("x,y,z,x\n", "column 'x' is there twice");
+  file_refused("x,y,z\n1,2,3\n1,2\n", ":3: 2 values for 3 columns");
+  file_refused("x,y,z\n1,2,nan\n", ":2: not a finite number: nan");
+  file_refused("x,y,z,qw,qx,qy,qz\n1,2,3,1,1,0,0\n", "the quaternion has length");
+  file_refused("x,y,z,shape\n1,2,3,0.5\n", "shape 0.5 is not a whole number");
+}
+
 TEST_F(CaseFile, EffectsOnBodiesAreJudged) {
   std::string const drag = std::string(minimal) + "[drag]\ndensity = 1.2\ncoefficient = 0.5\n";
   expect_one(refused(drag, {"drag.coefficient=-1"}), {"drag.coefficient: -1", "drive the motion"});
@@ -434,13 +486,36 @@ Case unusual_case(fs::path const& library) {
   c.contact[4] = {{"wood", "wood"}, ContactLaw::hertz, {}, 2e6, 0.03, 0.5, {}, {}, 0.5, 1e-3, 7.1e10, -0.25};
   c.grains.resize(5);
   c.grains[0] = {"mix", "rock", {"grains:ballast/*", "sphere"}, Evaluator::analytic, 123, 4, 0.05, {}};
-  c.grains[0].insert = {
-      InsertCase::Kind::lattice, {{0, 0.1, 0.2}, {1, 2, 3}}, Orientation::aligned, {1, 2, 3}, {4, 5, 6}, {}, {}};
+  c.grains[0].insert = {InsertCase::Kind::lattice,
+                        {{0, 0.1, 0.2}, {1, 2, 3}},
+                        Orientation::aligned,
+                        {1, 2, 3},
+                        {4, 5, 6},
+                        {},
+                        {},
+                        0,
+                        0,
+                        {},
+                        {},
+                        {},
+                        {}};
   c.grains[1] = {"two", "steel", {"sphere"}, Evaluator::net, 1000, 2, 0.1, {}};
-  c.grains[1].insert = {InsertCase::Kind::list,          {}, Orientation::random, {}, {}, {{0.1, 0, 0}, {2, 3, 4}},
-                        {{0.6, 0.8, 0, 0}, {0, 0, 0, 1}}};
+  c.grains[1].insert = {InsertCase::Kind::list,
+                        {},
+                        Orientation::random,
+                        {},
+                        {},
+                        {{0.1, 0, 0}, {2, 3, 4}},
+                        {{0.6, 0.8, 0, 0}, {0, 0, 0, 1}},
+                        0,
+                        0,
+                        {},
+                        {},
+                        {},
+                        {}};
   c.grains[2] = {"three", "steel", {"sphere"}, Evaluator::net, 1000, 1, 0.1, {}};
-  c.grains[2].insert = {InsertCase::Kind::list, {}, Orientation::aligned, {}, {}, {{9, 9, 9}}, {}};
+  c.grains[2].insert = {
+      InsertCase::Kind::list, {}, Orientation::aligned, {}, {}, {{9, 9, 9}}, {}, 0, 0, {}, {}, {}, {}};
   c.grains[3] = {"four", "steel", {}, Evaluator::grid, 1000, 1, 0.1, {}};
   c.grains[3].sample = SampleCase{"grains", "bal\"last", 1.75, {0.6, 0.9}, {}, {0.1, 0.2}, {0.3, 1}, {0.4, INFINITY}};
   c.grains[4] = {"five", "steel", {}, Evaluator::net, 1000, 1, 0.1, {}};

@@ -100,6 +100,29 @@ std::string refusal(fs::path const& file, bool recover = false) {
   return "";
 }
 
+TEST_F(ResultsFile, FramesSayWhichBodiesAreActiveWhereTheHeaderSaysSo) {
+  ResultsHeader h = header(3);
+  h.activity = true;
+  Frame f = frame(3, 1);
+  f.activity = {Activity::deleted, Activity::active, Activity::pending};
+  {
+    ResultsWriter writer(file_, h);
+    writer.write_frame(f);
+    Frame without = f;
+    without.activity.clear();
+    EXPECT_THROW(writer.write_frame(without), std::invalid_argument);
+    writer.finish({});
+  }
+  ResultsReader const reader(file_);
+  EXPECT_TRUE(reader.header().activity);
+  EXPECT_EQ(reader.frame(0).activity, f.activity);
+  EXPECT_TRUE(reader.frame(0).is_active(1));
+  EXPECT_FALSE(reader.frame(0).is_active(0) || reader.frame(0).is_active(2));
+  write_all(file_, 3, 1);
+  EXPECT_FALSE(ResultsReader(file_).header().activity);
+  EXPECT_TRUE(ResultsReader(file_).frame(0).activity.empty());
+}
+
 TEST_F(ResultsFile, WhatGoesInComesOut) {
   int constexpr n = 3, frames = 4;
   write_all(file_, n, frames);
