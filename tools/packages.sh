@@ -3,7 +3,7 @@
 # shellcheck shell=sh disable=SC2034
 
 engine_packages="build-essential cmake ninja-build ccache libhdf5-dev libtomlplusplus-dev libfmt-dev libcli11-dev libpng-dev zlib1g-dev libeigen3-dev libthrust-dev"
-test_packages="libgtest-dev libbenchmark-dev clang-format-14 libcgal-dev libtorch-dev libopenblas0-pthread python3-vtk9 python3-matplotlib"
+test_packages="libgtest-dev libbenchmark-dev clang-format-14 libcgal-dev libtorch-dev libopenblas0-pthread nlohmann-json3-dev libonnx-dev libprotobuf-dev python3-vtk9 python3-matplotlib"
 
 is_installed() { [ "$(dpkg-query -W -f '${db:Status-Abbrev}' "$1" 2>/dev/null)" = "ii " ]; }
 

@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "tools/guarded.h"
+#include "tools/model_export.h"
 #include "tools/shape_commands.h"
 
 int main(int argc, char** argv) {
@@ -21,6 +22,7 @@ int main(int argc, char** argv) {
   add_reconstruct(app, chosen);
   add_interpolate(app, chosen);
   add_sample(app, chosen);
+  add_model_export(app, chosen);
   try {
     app.parse(argc, argv);
   } catch (CLI::ParseError const& error) {

@@ -2,6 +2,7 @@
 // Links LibTorch and CGAL; distributed binaries are under GPL-3 because of CGAL.
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/guarded.h"
+#include "tools/model_export.h"
 #include "tools/train_commands.h"
 
 int main(int argc, char** argv) {
@@ -16,6 +17,7 @@ int main(int argc, char** argv) {
   add_coded_command(app, chosen);
   add_study_command(app, chosen);
   add_dataset_command(app, chosen);
+  add_model_export(app, chosen);
   try {
     app.parse(argc, argv);
   } catch (CLI::ParseError const& error) {

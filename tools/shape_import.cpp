@@ -1,4 +1,5 @@
-// shape_import.cpp: `scree-shape import`: check a mesh, repair what is simple, report its form.
+// shape_import.cpp: `scree-shape import`: check a mesh, repair what is simple, report its form; networks of other
+// programs into a model file.
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
@@ -13,6 +14,7 @@
 #include "shapes/mesh_files.h"
 #include "shapes/mesh_normalise.h"
 #include "tools/guarded.h"
+#include "tools/network_import.h"
 #include "tools/shape_commands.h"
 #include "tools/shape_input.h"
 
@@ -25,9 +27,14 @@ struct ImportArguments {
   fs::path mesh, output;
   int largest_hole = 30;
   bool normalise = false, force = false;
+  NetworkImport network;
 };
 
 int import_mesh(ImportArguments const& a) {
+  if (a.network.any_convention())
+    throw std::invalid_argument(a.mesh.string() +
+                                ": --activation, --parameter, --name, --radius and --negative-inside are for networks "
+                                "(.safetensors)");
   check_output(a.output, a.force);
   TriangleMesh const mesh = read_input([&] { return read_mesh(a.mesh); });
   MeshReport const before = check_mesh(mesh);
@@ -57,17 +64,33 @@ int import_mesh(ImportArguments const& a) {
   return exit_ok;
 }
 
+int import_file(ImportArguments const& a) {
+  if (!is_network_file(a.mesh)) return import_mesh(a);
+  NetworkImport network = a.network;
+  network.file = a.mesh, network.output = a.output, network.force = a.force;
+  return import_networks(network);
+}
+
 }  // namespace
 
 void add_import(CLI::App& app, std::function<int()>& chosen) {
   auto const a = std::make_shared<ImportArguments>();
-  CLI::App* const c = app.add_subcommand("import", "Check a mesh, repair simple defects, report its form");
-  c->add_option("mesh", a->mesh, "Mesh (.stl, .obj, .ply), any unit")->required();
-  c->add_option("-o,--output", a->output, "Mesh to write (.stl, .obj, .ply)")->required();
+  CLI::App* const c = app.add_subcommand("import", "Check a mesh, repair simple defects, report its form; or networks");
+  c->add_option("mesh", a->mesh, "Mesh (.stl, .obj, .ply), any unit; or networks (.safetensors)")->required();
+  c->add_option("-o,--output", a->output, "Mesh (.stl, .obj, .ply) or, for networks, model file (.h5) to write")
+      ->required();
   c->add_option("--largest-hole", a->largest_hole, "Fill holes of at most this many edges")->capture_default_str();
   c->add_flag("--normalise", a->normalise, "Write it with volume pi/6, centroid at 0, principal axes along x, y, z");
   c->add_flag("--force", a->force, "Replace an existing output file");
-  c->callback([a, &chosen] { chosen = [a] { return import_mesh(*a); }; });
+  NetworkImport& n = a->network;
+  c->add_option("--activation", n.activation, "Of another program's network")
+      ->check(CLI::IsMember({"leaky_relu", "sine", "softplus"}));
+  c->add_option("--parameter", n.parameter, "Its slope, omega or beta")->check(CLI::NonNegativeNumber);
+  c->add_option("--name", n.name, "Name of its shape (default: the file's)");
+  c->add_option("--radius", n.radius, "Ball about the origin that holds its surface, in its unit (default: 1.5)")
+      ->check(CLI::PositiveNumber);
+  c->add_flag("--negative-inside", n.negative_inside, "Its phi is negative inside");
+  c->callback([a, &chosen] { chosen = [a] { return import_file(*a); }; });
 }
 
 }  // namespace scree

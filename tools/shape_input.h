@@ -1,4 +1,4 @@
-// shape_input.h: what the commands of `scree-shape` ask of the files that they read and write.
+// shape_input.h: what the commands of `scree-shape` and `scree-train` ask of the files that they read and write.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -36,9 +36,6 @@ void add_training_options(CLI::App& command, TrainArguments& arguments);
 // Trains, certifies, writes the model and prints what came out. Returns the exit code.
 int train_and_write(TrainArguments const& arguments, std::vector<Body> const& bodies);
 
-// Everything that can go wrong with the output is said before minutes are spent on it.
-void check_output(std::filesystem::path const& file, bool force);
-
 // A closed mesh, normalised. One with defects is repaired where `repair` asks for it, telling what was done; else
 // std::invalid_argument names the file, all its defects and the way out.
 TriangleMesh read_closed_mesh(std::filesystem::path const& file, bool repair);

@@ -5,6 +5,7 @@
 #include "shapes/analytic_shapes.h"
 #include "shapes/file_hash.h"
 #include "shapes/mesh/procedural_grains.h"
+#include "tools/shape_input.h"
 #include "tools/train_commands.h"
 
 namespace scree {

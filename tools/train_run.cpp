@@ -1,7 +1,6 @@
 // train_run.cpp: what every training command does: read the mesh, train with progress, certify, write.
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -22,17 +21,6 @@
 #include "training/publish.h"
 
 namespace scree {
-
-void check_output(std::filesystem::path const& file, bool force) {
-  if (std::filesystem::is_directory(file)) throw std::invalid_argument(file.string() + " is a folder; name a file");
-  if (std::filesystem::exists(file) && !force)
-    throw std::invalid_argument(file.string() + " exists; choose another name or add --force");
-  std::filesystem::path const folder = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
-  if (!std::filesystem::is_directory(folder))
-    throw std::system_error(std::make_error_code(std::errc::no_such_file_or_directory), folder.string());
-  if (::access(folder.c_str(), W_OK) != 0)
-    throw std::system_error(errno, std::generic_category(), folder.string() + " cannot be written");
-}
 
 TriangleMesh read_closed_mesh(std::filesystem::path const& file, bool repair) {
   TriangleMesh mesh;

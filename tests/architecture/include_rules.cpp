@@ -21,11 +21,12 @@ std::map<std::string, Set> const& allowed_layers() {
       {"kernels/base", {}},
       {"kernels", {"kernels/base"}},
       {"shapes", {"kernels/base", "kernels"}},
+      {"shapes/exchange", {"kernels/base", "kernels", "shapes"}},
       {"shapes/mesh", {"kernels/base", "kernels", "shapes"}},
       {"training", {"kernels/base", "kernels", "shapes", "shapes/mesh"}},
       {"core", {"kernels/base", "kernels", "shapes"}},
-      {"tools", {"kernels/base", "kernels", "shapes", "shapes/mesh", "training", "core"}},
-      {"tests", {"kernels/base", "kernels", "shapes", "shapes/mesh", "training", "core", "tools"}}};
+      {"tools", {"kernels/base", "kernels", "shapes", "shapes/exchange", "shapes/mesh", "training", "core"}},
+      {"tests", {"kernels/base", "kernels", "shapes", "shapes/exchange", "shapes/mesh", "training", "core", "tools"}}};
   return table;
 }
 
@@ -53,6 +54,8 @@ std::vector<ForeignRule> const& foreign_rules() {
       {"^toml\\+\\+/", "toml++", {}, {"core/case_tree.cpp"}},
       {"^H5|^hdf5", "HDF5", {"shapes", "core", "tests"}, {}},
       {"^Eigen/", "Eigen", {"shapes", "shapes/mesh", "training", "tests"}, {"tools/bench/opponent_eigen.cpp"}},
+      {"^nlohmann/", "nlohmann-json", {"shapes/exchange", "tests"}, {}},
+      {"^onnx/|^google/protobuf", "ONNX", {"shapes/exchange"}, {}},
       {"^CLI/", "CLI11", {"tools"}, {}},
       {"^png", "libpng", {"core", "tools", "tests"}, {}}};
   return rules;
@@ -61,7 +64,8 @@ std::vector<ForeignRule> const& foreign_rules() {
 }  // namespace
 
 std::string layer_of(std::string const& path) {
-  for (char const* layer : {"kernels/base", "kernels", "shapes/mesh", "shapes", "training", "core", "tools", "tests"})
+  for (char const* layer :
+       {"kernels/base", "kernels", "shapes/exchange", "shapes/mesh", "shapes", "training", "core", "tools", "tests"})
     if (path.starts_with(std::string(layer) + "/")) return layer;
   return "";
 }
@@ -70,7 +74,7 @@ std::string violation(std::string const& path, std::string const& target) {
   std::string const from = layer_of(path), to = layer_of(target);
   if (!to.empty()) {
     if (from != to && !allowed_layers().at(from).contains(to)) return from + " may not include " + to;
-    if (is_engine_program(path) && (to == "training" || to == "shapes/mesh"))
+    if (is_engine_program(path) && (to == "training" || to == "shapes/mesh" || to == "shapes/exchange"))
       return "an engine program may not include " + to;
     return "";
   }

@@ -1,6 +1,6 @@
 # scree_build_info: a library of its own, so that a new commit relinks the programs that name it and nothing else.
 set(features)
-foreach(part CUDA MESH TRAINING BENCHMARKS)
+foreach(part CUDA MESH TRAINING EXCHANGE ONNX BENCHMARKS)
   if(SCREE_HAVE_${part})
     string(TOLOWER ${part} name)
     list(APPEND features ${name})

@@ -1,4 +1,5 @@
-# Finds what Scree is built from and settles the optional parts: SCREE_HAVE_CUDA, _MESH, _TRAINING, _BENCHMARKS.
+# Finds what Scree is built from and settles the optional parts: SCREE_HAVE_CUDA, _MESH, _TRAINING, _EXCHANGE, _ONNX,
+# _BENCHMARKS.
 include(CheckLanguage)
 
 set(SCREE_HAVE_CUDA OFF)
@@ -49,6 +50,20 @@ if(Torch_FOUND AND SCREE_HAVE_MESH)
   set(torch_and_mesh TRUE)
 endif()
 scree_optional(TRAINING "${torch_and_mesh}" "LibTorch (libtorch-dev) with CGAL (libcgal-dev)")
+if(NOT SCREE_EXCHANGE STREQUAL "OFF")
+  find_package(nlohmann_json QUIET)
+endif()
+scree_optional(EXCHANGE "${nlohmann_json_FOUND}" "nlohmann-json (nlohmann-json3-dev)")
+if(SCREE_HAVE_EXCHANGE AND NOT SCREE_ONNX STREQUAL "OFF")
+  find_package(Protobuf QUIET)  # ONNX's targets name it
+  if(Protobuf_FOUND)
+    find_package(ONNX QUIET)
+  endif()
+  if(TARGET onnx_proto)
+    set(onnx_found TRUE)
+  endif()
+endif()
+scree_optional(ONNX "${onnx_found}" "ONNX (libonnx-dev, libprotobuf-dev) with nlohmann-json (nlohmann-json3-dev)")
 if(NOT SCREE_BENCHMARKS STREQUAL "OFF")
   find_package(benchmark QUIET)
 endif()
@@ -56,4 +71,4 @@ scree_optional(BENCHMARKS "${benchmark_FOUND}" "Google Benchmark (libbenchmark-d
 if(SCREE_TESTS)
   find_package(GTest REQUIRED)
 endif()
-message(STATUS "Scree parts: cuda ${SCREE_HAVE_CUDA}, mesh ${SCREE_HAVE_MESH}, training ${SCREE_HAVE_TRAINING}, benchmarks ${SCREE_HAVE_BENCHMARKS}")
+message(STATUS "Scree parts: cuda ${SCREE_HAVE_CUDA}, mesh ${SCREE_HAVE_MESH}, training ${SCREE_HAVE_TRAINING}, exchange ${SCREE_HAVE_EXCHANGE}, onnx ${SCREE_HAVE_ONNX}, benchmarks ${SCREE_HAVE_BENCHMARKS}")
