@@ -1,4 +1,4 @@
-// plot_script.cpp: runs tools/python/plot_study.py, which is part of the program.
+// plot_script.cpp: see plot_script.h.
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/plot_script.h"
 
@@ -8,8 +8,6 @@
 #include <cstdlib>
 
 namespace scree {
-
-extern char const plot_study_text[];  // in a source that CMake makes from the script
 
 namespace {
 
@@ -26,16 +24,16 @@ int exit_code(int status) { return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 
 }  // namespace
 
-std::string plot_study(std::string const& study, std::filesystem::path const& folder) {
+std::string run_plot_script(char const* text, std::vector<std::string> const& arguments) {
   std::string const check = std::string(python) + " -c 'import matplotlib' 2>/dev/null";
-  if (exit_code(std::system(check.c_str())) != 0)
-    return "Matplotlib was not found; install python3-matplotlib, then add --plot-only";
+  if (exit_code(std::system(check.c_str())) != 0) return "Matplotlib was not found; install python3-matplotlib";
   // The script goes through standard input: there is no file to lose.
   std::fflush(stdout);
-  std::string const command = std::string(python) + " - " + quoted(study) + " " + quoted(folder.string());
+  std::string command = std::string(python) + " -";
+  for (std::string const& argument : arguments) command += " " + quoted(argument);
   FILE* const pipe = ::popen(command.c_str(), "w");
   if (!pipe) return "Python could not be started";
-  std::fputs(plot_study_text, pipe);
+  std::fputs(text, pipe);
   int const code = exit_code(::pclose(pipe));
   return code == 0 ? "" : "the plotting script failed with exit code " + std::to_string(code);
 }

@@ -1,4 +1,5 @@
-// shape_reconstruct.cpp: `scree-shape reconstruct`: a triangle mesh from phi, from another mesh, or from points.
+// shape_reconstruct.cpp: `scree-shape reconstruct`: a triangle mesh from phi, from another mesh, or from points; or the
+// harmonics themselves as a model file.
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
@@ -9,13 +10,19 @@
 #include <string>
 #include <vector>
 
+#include "shapes/certify_phi.h"
+#include "shapes/harmonic_shape.h"
 #include "shapes/harmonics_fit.h"
 #include "shapes/mesh/alpha_shape.h"
+#include "shapes/mesh/certify_mesh.h"
 #include "shapes/mesh/harmonics_mesh.h"
 #include "shapes/mesh/mesh_check.h"
 #include "shapes/mesh/mesh_compare.h"
 #include "shapes/mesh/mesh_distance.h"
 #include "shapes/mesh_files.h"
+#include "shapes/model_file.h"
+#include "shapes/text_lines.h"
+#include "tools/certificate_table.h"
 #include "tools/guarded.h"
 #include "tools/shape_commands.h"
 #include "tools/shape_input.h"
@@ -28,7 +35,7 @@ namespace fs = std::filesystem;
 
 struct ReconstructArguments {
   fs::path source, output;
-  std::string shape, method = "alpha";
+  std::string shape, name, method = "alpha";
   int points = 4000, degree = 10, cells = 48, samples = 10000, threads = 2;
   double alpha = 0;  // 0: chosen
   bool force = false;
@@ -57,12 +64,29 @@ TriangleMesh by_alpha(ShapeSource const& source, ReconstructArguments const& a) 
   return shape.mesh;
 }
 
-TriangleMesh by_harmonics(ShapeSource const& source, ReconstructArguments const& a) {
+std::vector<double> harmonics_of(ShapeSource const& source, ReconstructArguments const& a) {
   std::vector<Vec3> const point = points_of(source, a.points, SampleSpread::directions);
   HarmonicsFit const fit = fit_harmonics(point, a.degree);
   fmt::print("  degree {}: {} coefficients, radii off by {:.2e} {} (rms), {:.2e} at most\n", a.degree,
              fit.coefficient.size(), fit.rms, source.unit, fit.largest);
-  return harmonics_mesh(fit.coefficient, a.points);
+  return fit.coefficient;
+}
+
+// A model file: normalised, certified against the source where that has a surface.
+int write_harmonics(ShapeSource const& source, ReconstructArguments const& a) {
+  std::string name = !a.name.empty() ? a.name : !a.shape.empty() ? a.shape : a.source.stem().string();
+  Library library;
+  Shape& shape = library.shape[add_harmonic_shape(library, name, harmonics_of(source, a), a.threads)];
+  shape.certificate.source += " from " + a.source.filename().string();
+  if (!source.is_cloud()) {
+    MeshTruth const truth(truth_mesh(source), library, shape, a.threads);
+    truth.certify(fast_phi(library, shape, a.threads), shape, a.samples, 1, shape.certificate);
+  }
+  certify_phi(library, shape, {.threads = a.threads}, shape.certificate);
+  fmt::print("{}\n{}", error_table(library.shape), phi_table(library.shape));
+  write_model(a.output, library, a.force);
+  fmt::print("{}: shape {}, its equal-volume sphere has diameter 1\n", a.output.string(), name);
+  return exit_ok;
 }
 
 TriangleMesh by_marching(ShapeSource const& source, ReconstructArguments const& a) {
@@ -92,12 +116,17 @@ void report(ShapeSource const& source, TriangleMesh const& mesh, ReconstructArgu
 }
 
 int reconstruct(ReconstructArguments const& a) {
-  if (!is_mesh_file(a.output)) throw std::invalid_argument(a.output.string() + ": write a .stl, .obj or .ply file");
+  bool const model = a.method == "harmonics" && lower_extension(a.output) == ".h5";
+  if (!is_mesh_file(a.output) && !model)
+    throw std::invalid_argument(a.output.string() +
+                                ": write a .stl, .obj or .ply file (with --method harmonics also .h5)");
+  if (!model && !a.name.empty()) throw std::invalid_argument("--name is for a model file (.h5): meshes have no names");
   check_output(a.output, a.force);
   ShapeSource const source = open_source(a.source, a.shape, a.threads);
   fmt::print("{}: by {}\n", source.title, a.method);
+  if (model) return write_harmonics(source, a);
   TriangleMesh mesh = a.method == "alpha"       ? by_alpha(source, a)
-                      : a.method == "harmonics" ? by_harmonics(source, a)
+                      : a.method == "harmonics" ? harmonics_mesh(harmonics_of(source, a), a.points)
                                                 : by_marching(source, a);
   report(source, mesh, a);
   move_by(mesh, source.centre);
@@ -113,8 +142,10 @@ void add_reconstruct(CLI::App& app, std::function<int()>& chosen) {
   CLI::App* const c =
       app.add_subcommand("reconstruct", "Make a mesh of a model's shape, another mesh or a point cloud");
   c->add_option("source", a->source, "Model (.h5), closed mesh (.stl, .obj, .ply) or points (.ply, .xyz)")->required();
-  c->add_option("-o,--output", a->output, "Mesh to write (.stl, .obj, .ply)")->required();
+  c->add_option("-o,--output", a->output, "Mesh to write (.stl, .obj, .ply); harmonics: also a model file (.h5)")
+      ->required();
   c->add_option("--shape", a->shape, "Shape of the model");
+  c->add_option("--name", a->name, "Name of the shape in a model file (default: the source's)");
   c->add_option("--method", a->method, "alpha: any body; harmonics: smooth, star-shaped; marching: from phi")
       ->check(CLI::IsMember({"alpha", "harmonics", "marching"}))
       ->capture_default_str();

@@ -41,14 +41,14 @@ int run_study(StudyArguments const& a) {
   for (Study const& study : chosen) {
     auto const start = std::chrono::steady_clock::now();
     if (!a.plot_only) study.run(a.study);
-    std::string const trouble = plot_study(study.name, a.study.folder);
+    std::string const trouble = run_plot_script(plot_study_text, {study.name, a.study.folder.string()});
     double const seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     fs::path const file = a.study.folder / study.name;
     if (trouble.empty())
       fmt::print("{} ({}): {}.csv and .png, {:.0f} s\n", study.name, study.figure, file.string(), seconds);
     else
-      fmt::print("{} ({}): {}.csv, {:.0f} s; no picture: {}\n", study.name, study.figure, file.string(), seconds,
-                 trouble);
+      fmt::print("{} ({}): {}.csv, {:.0f} s; no picture: {}; then add --plot-only\n", study.name, study.figure,
+                 file.string(), seconds, trouble);
   }
   return exit_ok;
 }

@@ -14,6 +14,7 @@
 #include "shapes/mesh/mesh_check.h"
 #include "shapes/mesh/procedural_grains.h"
 #include "shapes/mesh_files.h"
+#include "shapes/model_file.h"
 #include "shapes/point_files.h"
 
 namespace scree {
@@ -87,6 +88,46 @@ TEST_F(ShapeProgram, MeshesKeepTheirPlaceAndSize) {
     EXPECT_NEAR(mass.volume / truth.volume, 1, 0.02) << name;
     EXPECT_NEAR(norm(mass.centroid - truth.centroid), 0, 0.1) << name;  // 0.005 of its diameter
   }
+}
+
+TEST_F(ShapeProgram, HarmonicsBecomeAModelThatIsCertifiedAgainstItsSource) {
+  write_mesh(folder_ / "cobble.stl", procedural_grain(GrainKind::cobble, 1).mesh);
+  ASSERT_EQ(run("reconstruct cobble.stl --method harmonics --points 1000 --samples 500 -o cobble.h5"), 0) << said_;
+  Library const library = read_model(folder_ / "cobble.h5");
+  ASSERT_EQ(library.shape.size(), 1u);
+  EXPECT_EQ(library.shape[0].name, "cobble");
+  EXPECT_EQ(library.shape[0].kind, ShapeKind::harmonics);
+  Certificate const& c = library.shape[0].certificate;
+  EXPECT_GT(c.hausdorff, 0);
+  EXPECT_LT(c.hausdorff, 0.06);  // degree 10: the worst of the shipped grains, shapes/mesh/README.md
+  EXPECT_LT(c.volume_error, 0.01);
+  EXPECT_EQ(c.components, 1);
+  refused("reconstruct cobble.stl --method harmonics -o cobble.h5", 2, "--force");
+  refused("reconstruct cobble.stl --method alpha -o out.h5", 2, "with --method harmonics also .h5");
+  refused("reconstruct cobble.stl --name a -o out.stl", 2, "--name");
+}
+
+TEST_F(ShapeProgram, InspectsAgainstAMeshAndDraws) {
+  TriangleMesh mesh = procedural_grain(GrainKind::cobble, 2).mesh;
+  for (Vec3& v : mesh.vertex) v = Vec3{v.y, v.z, v.x} * 3 + Vec3{1, 2, 3};
+  write_mesh(folder_ / "cobble.stl", mesh);
+  ASSERT_EQ(run("inspect grains.h5 --shape cobble/2 --mesh cobble.stl --plot cobble.svg"), 0) << said_;
+  EXPECT_TRUE(says("measured now against the mesh")) << said_;
+  EXPECT_TRUE(says("cobble.svg: drawn") || says("no picture: Matplotlib was not found")) << said_;
+  for (char const* part : {"slices", "outline", "samples"})
+    EXPECT_GT(fs::file_size(folder_ / ("cobble-" + std::string(part) + ".csv")), 1000u) << part;
+  if (says("drawn")) {
+    EXPECT_GT(fs::file_size(folder_ / "cobble.svg"), 10000u);
+  }
+  EXPECT_FALSE(says("warning")) << said_;
+  ASSERT_EQ(run("inspect grains.h5 --shape sand/4 --mesh cobble.stl"), 0) << said_;
+  EXPECT_TRUE(says("warning: that is far off")) << said_;
+  refused("inspect grains.h5 --shape cobble/2 --plot cobble.svg", 2, "--force");
+  refused("inspect grains.h5 --plot out.png", 2, "choose with --shape one of: ballast/0");
+  refused("inspect grains.h5 --shape cobble/2 --plot out.pdf", 2, "out.pdf: write a .png or .svg");
+  mesh.triangle.pop_back();
+  write_mesh(folder_ / "open.stl", mesh);
+  refused("inspect grains.h5 --shape cobble/2 --mesh open.stl", 2, "open.stl: ");
 }
 
 TEST_F(ShapeProgram, WrongInputGetsOneMessageAndWritesNothing) {
