@@ -99,7 +99,14 @@ void read_contact(CaseReader r, ContactCase& out) {
   r.number("tangential_ratio", out.tangential_ratio);
   r.number("friction", out.friction);
   if (auto damping = r.table("damping")) read_damping(*damping, out);
-  r.unsupported({"rolling", "cohesion"});
+  if (auto rolling = r.table("rolling")) {
+    RollingCase& roll = out.rolling.emplace();
+    rolling->number("friction", roll.friction, Need::required);
+    rolling->number("stiffness_ratio", roll.stiffness_ratio);
+    rolling->number("damping", roll.damping);
+    rolling->finish();
+  }
+  r.unsupported({"cohesion"});
   r.finish();
 }
 

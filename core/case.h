@@ -59,6 +59,13 @@ struct MaterialCase {
   double density = 2650;  // [kg/m3]
 };
 
+// Rolling resistance, elastic-plastic spring-dashpot (kernels/rolling.h).
+struct RollingCase {
+  double friction = 0;            // mu_r
+  double stiffness_ratio = 2.25;  // k_r / (K (mu_r R_r)^2); 2.25: Ai et al. 2011 for spheres
+  double damping = 0.3;           // eta_r, share of critical
+};
+
 struct ContactCase {
   std::pair<std::string, std::string> pair;
   ContactLaw law = ContactLaw::winkler;
@@ -74,6 +81,7 @@ struct ContactCase {
   double onset = 1e-3;                  // linear: overlap at which the pressure is reached [d of the largest grain]
   double youngs_modulus = 0;            // hertz [Pa]
   double poisson_ratio = 0;             // hertz
+  std::optional<RollingCase> rolling;   // absent: none, no history exists
 };
 
 struct InsertCase {

@@ -137,6 +137,11 @@ void Checker::contacts() {
     if (k.restitution)
       range(at + "damping.restitution", *k.restitution, 0, false, 1,
             "rebound speed over impact speed; above 1 energy would be made");
+    if (k.rolling) {
+      range(at + "rolling.friction", k.rolling->friction, 0, true, infinity, "a negative one would drive the rolling");
+      positive(at + "rolling.stiffness_ratio", k.rolling->stiffness_ratio, "k_r / (K (mu_r R_r)^2)");
+      range(at + "rolling.damping", k.rolling->damping, 0, true, 1, "share of the critical damping of rolling");
+    }
     if (k.damping_ratio && k.restitution) fail(at + "damping", "give exactly one of ratio and restitution");
   }
 }

@@ -99,6 +99,9 @@ void write_contact(std::string& out, ContactCase const& c) {
     out += fmt::format("normal = {{ stiffness = {}, at_overlap = {} }}  # [N/m], [d]\n", c.stiffness, c.at_overlap);
   out += fmt::format("tangential_ratio = {}\n", c.tangential_ratio);
   if (c.friction) out += fmt::format("friction = {}\n", *c.friction);
+  if (c.rolling)
+    out += fmt::format("rolling = {{ friction = {}, stiffness_ratio = {}, damping = {} }}\n", c.rolling->friction,
+                       c.rolling->stiffness_ratio, c.rolling->damping);
   if (c.damping_ratio) out += fmt::format("damping = {{ ratio = {} }}\n", *c.damping_ratio);
   if (c.restitution) out += fmt::format("damping = {{ restitution = {} }}\n", *c.restitution);
 }

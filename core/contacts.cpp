@@ -77,6 +77,10 @@ void rebuild_pairs(Queue const& queue, Scene const& scene, SceneView const& view
     permute(state.sphere_history.xi, work.old_pair, Vec3{});
     permute(state.sphere_history.stiffness, work.old_pair, 0.0);
   }
+  if (scene.rolling) {
+    permute(state.rolling_history.angle, work.old_pair, Vec3{});
+    permute(state.rolling_history.stiffness, work.old_pair, 0.0);
+  }
   assign_pairs_to_bodies(scene.bodies(), work.pair, work.pairs_of_bodies);
   work.built_position = state.position;
   work.built_orientation = state.orientation;
@@ -95,21 +99,30 @@ void evaluate_contacts(Queue const& queue, Scene const& scene, Effects const& ef
   KinematicsView const kinematics{work.kinematics.rotation, work.kinematics.spin};
   ContactOptions const options{dt, settings.normalise_gradient};
   work.result.resize(work.pair.size());
+  RollingView rolling;
+  if (effects.rolling) {
+    work.next_rolling_history.angle.resize(work.pair.size());
+    work.next_rolling_history.stiffness.resize(work.pair.size());
+    work.rolling.resize(work.pair.size());
+    rolling = {state.rolling_history.angle, state.rolling_history.stiffness, work.next_rolling_history.angle,
+               work.next_rolling_history.stiffness, work.rolling};
+  }
   if (effects.node_contacts) {
     GatherOptions const gather{dt, settings.brute_force};
     update_node_lists(queue, view, now, kinematics, scene.networks, gather, work.gather);
     find_active_nodes(queue, view, now, kinematics, scene.networks, gather, work.gather.lists, work.active);
     reduce_node_contacts(queue, view, now, kinematics, options, work.pair, work.closed_form, work.gather.lists,
-                         work.active, state.node_history, work.next_node_history, work.result);
+                         work.active, state.node_history, work.next_node_history, rolling, work.result);
   }
   if (effects.sphere_contacts)
     sphere_contacts(queue, view, now, kinematics, options, work.pair, work.closed_form, state.sphere_history,
-                    work.next_sphere_history, work.result);
+                    work.next_sphere_history, rolling, work.result);
   if (effects.friction) {
     std::swap(state.node_history, work.next_node_history);
     std::swap(state.sphere_history, work.next_sphere_history);
   }
-  reduce_to_bodies(queue, view, work.result, work.pairs_of_bodies, state.wrench);
+  if (effects.rolling) std::swap(state.rolling_history, work.next_rolling_history);
+  reduce_to_bodies(queue, view, work.result, work.rolling, work.pairs_of_bodies, state.wrench);
 }
 
 }  // namespace scree

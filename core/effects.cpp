@@ -21,6 +21,7 @@ Effects effects_of(Case const& c, Scene const& scene) {
   e.meshes = any_sdf(SdfKind::mesh);
   e.analytic_nodes = others && (any_sdf(SdfKind::analytic) || !scene.plane.empty());
   e.friction = any_contact([](ContactParameters const& p) { return p.friction > 0; });
+  e.rolling = scene.rolling;
   e.damping = any_contact([](ContactParameters const& p) { return p.damping_nodes > 0; });
   e.gravity = c.gravity && norm2(*c.gravity) > 0;
   e.force = std::any_of(c.force.begin(), c.force.end(),
@@ -68,6 +69,7 @@ std::vector<std::string> names_of(Effects const& e) {
   if (e.global_damping) names.push_back("global damping");
   if (e.insertion) names.push_back("insertion");
   if (e.friction) names.push_back("friction");
+  if (e.rolling) names.push_back("rolling resistance");
   if (e.damping) names.push_back("damping");
   if (e.settle) names.push_back("settle");
   return names;
@@ -75,6 +77,7 @@ std::vector<std::string> names_of(Effects const& e) {
 
 std::vector<std::string> ledger_columns_of(Effects const& e) {
   std::vector<std::string> columns;
+  if (e.rolling) columns.insert(columns.end(), {"elastic_rolling", "rolling"});
   if (e.insertion) columns.push_back("inserted");
   if (e.force) columns.push_back("applied");
   if (e.drag) columns.push_back("drag");

@@ -20,6 +20,7 @@ struct Effects {
   bool meshes = false;           // ... meshes
   bool analytic_nodes = false;   // nodes meet planes or analytic shapes
   bool friction = false;
+  bool rolling = false;  // rolling resistance
   bool damping = false;
   bool gravity = false;
   bool force = false;  // applied forces or torques

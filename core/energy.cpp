@@ -8,7 +8,7 @@
 namespace scree {
 
 double mechanical_energy(LedgerRow const& row) {
-  return row.kinetic + row.potential + row.elastic_normal + row.elastic_tangential;
+  return row.kinetic + row.potential + row.elastic_normal + row.elastic_tangential + row.elastic_rolling;
 }
 
 LedgerRow make_ledger(Scene const& scene, std::optional<Vec3> gravity, State const& state, Workspace const& work) {
@@ -23,18 +23,20 @@ LedgerRow make_ledger(Scene const& scene, std::optional<Vec3> gravity, State con
     row.elastic_normal += r.energy_normal;
     row.elastic_tangential += r.energy_tangential;
   }
+  for (RollingResult const& r : work.rolling) row.elastic_rolling += r.energy;
   // Forces do negative work; the ledger lists losses as positive. What friction took and did not store is lost.
   row.damping = -sum(state.work_damping);
   row.friction = -sum(state.work_friction) - row.elastic_tangential;
+  row.rolling = -sum(state.work_rolling) - row.elastic_rolling;
   row.global_damping = sum(state.removed_by_damping);
   row.inserted = state.inserted_energy;
   row.drag = sum(state.removed_by_drag);
   row.applied = sum(state.work_applied);
   row.residual = mechanical_energy(row) - state.initial_energy - row.inserted - row.wall_work - row.applied +
-                 row.damping + row.friction + row.global_damping + row.drag + row.removed;
+                 row.damping + row.friction + row.rolling + row.global_damping + row.drag + row.removed;
   row.moved = std::abs(row.damping) + std::abs(row.friction) + std::abs(row.global_damping) + std::abs(row.wall_work) +
               state.exchanged_kinetic + std::abs(row.removed) + std::abs(row.drag) + std::abs(row.applied) +
-              state.kinetic_peak;
+              std::abs(row.rolling) + state.kinetic_peak;
   return row;
 }
 

@@ -50,8 +50,9 @@ struct LedgerRow {  // [J]; see core/energy.h
   double inserted = 0, wall_work = 0, damping = 0, friction = 0, global_damping = 0, removed = 0;
   double residual = 0, moved = 0;
   // Only where the case has the effect.
-  double applied = 0;  // work of applied forces and torques
-  double drag = 0;     // lost to drag
+  double applied = 0;                       // work of applied forces and torques
+  double drag = 0;                          // lost to drag
+  double elastic_rolling = 0, rolling = 0;  // stored in and lost to rolling resistance
 };
 
 struct StageRow {

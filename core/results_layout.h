@@ -22,7 +22,7 @@ struct LedgerColumn {
   double LedgerRow::*value;
   bool every_run = true;
 };
-std::array<LedgerColumn, 15> constexpr ledger{{{"time", &LedgerRow::time},
+std::array<LedgerColumn, 17> constexpr ledger{{{"time", &LedgerRow::time},
                                                {"kinetic", &LedgerRow::kinetic},
                                                {"potential", &LedgerRow::potential},
                                                {"elastic_normal", &LedgerRow::elastic_normal},
@@ -35,6 +35,8 @@ std::array<LedgerColumn, 15> constexpr ledger{{{"time", &LedgerRow::time},
                                                {"removed", &LedgerRow::removed},
                                                {"applied", &LedgerRow::applied, false},
                                                {"drag", &LedgerRow::drag, false},
+                                               {"elastic_rolling", &LedgerRow::elastic_rolling, false},
+                                               {"rolling", &LedgerRow::rolling, false},
                                                {"residual", &LedgerRow::residual},
                                                {"moved", &LedgerRow::moved}}};
 static_assert(sizeof(LedgerRow) == ledger.size() * sizeof(double), "a ledger entry has no column");

@@ -70,6 +70,11 @@ ContactParameters parameters_of(ContactCase const& contact, double largest_diame
   p.normal = normal_law(contact, largest_diameter);
   p.tangential = contact.tangential_ratio;
   p.friction = contact.friction.value_or(0);
+  if (contact.rolling) {
+    p.rolling = contact.rolling->friction;
+    p.rolling_ratio = contact.rolling->stiffness_ratio;
+    p.rolling_damping = contact.rolling->damping;
+  }
   if (contact.damping_ratio) {
     p.damping_nodes = *contact.damping_ratio;
     // Both paths have to rebound alike, so the ratio stands for the restitution it gives on nodes.
@@ -109,7 +114,10 @@ void build_contacts(Case const& c, Scene& scene, std::vector<std::string>& found
         found.push_back("materials '" + c.material[a].name + "' and '" + c.material[b].name +
                         "' can meet, but no [[contact]] has pair = [\"" + c.material[a].name + "\", \"" +
                         c.material[b].name + "\"]");
-  for (ContactParameters const& p : scene.contact) scene.friction = scene.friction || p.friction > 0;
+  for (ContactParameters const& p : scene.contact) {
+    scene.friction = scene.friction || p.friction > 0;
+    scene.rolling = scene.rolling || p.rolling > 0;
+  }
 }
 
 void build_planes(Case const& c, Scene& scene) {

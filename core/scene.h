@@ -57,7 +57,7 @@ struct Scene {
   std::vector<std::string> material;
   std::vector<PlaneRecord> plane;
   std::vector<ContactParameters> contact;  // [a * materials + b]
-  bool friction = false;
+  bool friction = false, rolling = false;  // some pair has it: history exists
 
   std::vector<std::string> notes;  // what the user should know about the making of the scene
 

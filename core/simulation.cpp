@@ -40,6 +40,7 @@ Simulation::Impl::Impl(Case const& c_, SimulationOptions const& options_, Frame 
   }
   for (auto* v : {&state.work_damping, &state.work_friction, &state.removed_by_damping}) v->assign(n, 0);
   if (effects.force) state.work_applied.assign(n, 0);
+  if (effects.rolling) state.work_rolling.assign(n, 0);
   if (effects.drag) state.removed_by_drag.assign(n, 0);
   if (effects.insertion) start_insertion(c, scene, start, state);
   work.external.assign(n, {});
@@ -64,7 +65,7 @@ RunState Simulation::Impl::step() {
   SceneView const view = scene.view();
   double const dt = state.time_step;
   if (effects.insertion) insert_due(queue, c, scene, state, work, messages);
-  WorkView const work_done{state.work_damping, state.work_friction, state.work_applied};
+  WorkView const work_done{state.work_damping, state.work_friction, state.work_applied, state.work_rolling};
   brake_bodies(queue, c, effects, view, dt / 2, state);
   if (effects.force) push_bodies(queue, c, scene, state.time, state.time + dt / 2, work);
   open_step(queue, view, state.view(), work.wrenches(state.wrench), dt, work_done);
@@ -101,7 +102,8 @@ void Simulation::Impl::check_limits() {
 }
 
 void Simulation::Impl::check_time_step() {
-  double const critical = critical_time_step(scene.view(), work.pair, work.result, state.wrench.stiffness);
+  double const critical =
+      critical_time_step(scene.view(), work.pair, work.result, work.rolling, state.wrench.stiffness);
   double const share = state.time_step / critical;
   if (c.time.step) {
     // The user's step is the user's, up to where it cannot work.

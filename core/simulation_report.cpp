@@ -35,6 +35,9 @@ std::string law_of(Simulation::Impl const& s, int a, int b) {
   std::string text = fmt::format("{} - {}: {}, k_t/k_n {:.3g}", s.scene.material[a], s.scene.material[b],
                                  normal_law_in_words(p.normal), p.tangential);
   if (p.friction > 0) text += fmt::format(", friction {:.3g}", p.friction);
+  if (p.rolling > 0)
+    text += fmt::format(", rolling friction {:.3g}, stiffness ratio {:.3g}, damping {:.3g}", p.rolling, p.rolling_ratio,
+                        p.rolling_damping);
   if (p.damping_nodes > 0) text += fmt::format(", damping ratio {:.3g}", p.damping_nodes);
   return text;
 }
@@ -67,6 +70,8 @@ std::vector<Plan::Array> arrays_of(Simulation::Impl const& s) {
   add(s.effects.force, "applied forces", bytes(s.work.applied) + bytes(s.state.work_applied));
   add(!s.state.activity.empty(), "activity", bytes(s.state.activity) + bytes(s.state.insertion));
   add(s.effects.drag, "drag", bytes(s.state.removed_by_drag));
+  add(s.effects.rolling, "rolling history",
+      bytes(s.state.rolling_history.angle) + bytes(s.state.rolling_history.stiffness) + bytes(s.work.rolling));
   return arrays;
 }
 

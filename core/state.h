@@ -26,8 +26,10 @@ struct State {
   BodyWrenches wrench;  // of the last step: the next one opens with them
   NodeHistory node_history;
   SphereHistory sphere_history;
+  RollingHistory rolling_history;
   std::vector<double> work_damping, work_friction, removed_by_damping;  // since the start [J] (n_bodies)
   std::vector<double> work_applied, removed_by_drag;                    // ... (n_bodies), empty without the effect
+  std::vector<double> work_rolling;                                     // ... (n_bodies), empty without the effect
   double time = 0, time_step = 0;                                       // [s]
   std::int64_t step = 0;
   // Of runs with insertion over time or deletion; else empty.
@@ -64,11 +66,15 @@ struct Workspace {
   ActiveNodes active;
   NodeHistory next_node_history;
   SphereHistory next_sphere_history;
+  RollingHistory next_rolling_history;
   std::vector<PairResult> result;
-  std::vector<double> kinetic;  // [J] (n_bodies)
+  std::vector<RollingResult> rolling;  // (n_pairs), empty without rolling resistance
+  std::vector<double> kinetic;         // [J] (n_bodies)
   std::int64_t pair_rebuilds = 0;
 
-  WrenchesView wrenches(BodyWrenches const& b) const { return {b.elastic, b.damping, b.friction, external, applied}; }
+  WrenchesView wrenches(BodyWrenches const& b) const {
+    return {b.elastic, b.damping, b.friction, external, applied, b.rolling};
+  }
 };
 
 }  // namespace scree

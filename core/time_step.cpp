@@ -53,6 +53,8 @@ double speed2_of_forces(Case const& c, Scene const& scene, Placement const& plac
   return speed2;
 }
 
+double inertia_mean(Vec3 i) { return (i.x + i.y + i.z) / 3; }
+
 // Overlap at which a smooth contact stores m v^2 / 2 [m].
 double impact_overlap(SphereLaw const& law, double m, double speed2) {
   if (law.law.kind == ContactLaw::winkler)  // m v^2 / 2 = pi R kappa overlap^3 / 3
@@ -123,8 +125,12 @@ StepEstimate estimate_critical_step(Case const& c, Scene const& scene, Placement
       double const stiffness = std::max(law.stiffness(overlap), steepest * flat_face(shape) * d * d) *
                                std::max(1.0, p.tangential * law.tangential(overlap) / law.stiffness(overlap));
       double const least = std::min({inertia.x, inertia.y, inertia.z});
-      double const omega2 = 2 * stiffness * (1 / m + radius * radius / least);  // both bodies of a pair
-      double const zeta = std::max(p.damping_nodes, p.damping_sphere);
+      double const turning = p.rolling_ratio * stiffness * p.rolling * p.rolling * radius * radius;
+      double const omega2 = 2 * (stiffness * (1 / m + radius * radius / least) + turning / least);  // both bodies
+      // A grain that turns by itself feels the damping of one that rolls, design physics.md section 4.
+      double const rolling =
+          p.rolling > 0 ? p.rolling_damping * std::sqrt((inertia_mean(inertia) + m * radius * radius) / least) : 0;
+      double const zeta = std::max({p.damping_nodes, p.damping_sphere, rolling});
       double const critical = 2 / std::sqrt(omega2) * (std::sqrt(1 + zeta * zeta) - zeta);
       if (critical < out.critical) out.critical = critical, out.overlap = overlap / d;
       double const spacing = scene.shape[scene.shape_of[i]].node_spacing * d;

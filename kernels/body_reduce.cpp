@@ -12,9 +12,11 @@ namespace {
 struct ReduceBody {
   SceneView scene;
   Span<const PairResult> result;
+  Span<const RollingResult> rolling;  // empty: none
   Span<const int> first, entry;
   Span<Wrench> elastic, damping, friction;
   Span<double> stiffness;
+  Span<Vec3> couple;  // of rolling resistance
 
   SCREE_HD static Wrench share(PairWrench const& w, bool as_a) {
     return as_a ? Wrench{w.force_on_a, w.torque_a} : Wrench{-w.force_on_a, w.torque_b};
@@ -22,6 +24,7 @@ struct ReduceBody {
 
   SCREE_HD void operator()(int i) const {
     Wrench e, d, f;
+    Vec3 c;
     double s = 0;
     Vec3 const inertia = scene.inertia[i];
     double least = inertia.x < inertia.y ? inertia.x : inertia.y;
@@ -34,7 +37,12 @@ struct ReduceBody {
       d += share(r.damping, as_a);
       f += share(r.friction, as_a);
       s += r.stiffness * (1 / scene.mass[i] + (as_a ? r.arm2_a : r.arm2_b) / least);
+      if (rolling.empty()) continue;
+      RollingResult const& turn = rolling[entry[k] / 2];
+      c += turn.torque_on_a * (as_a ? 1.0 : -1.0);
+      s += turn.stiffness / least;
     }
+    if (!couple.empty()) couple[i] = c;
     elastic[i] = e, damping[i] = d, friction[i] = f, stiffness[i] = s;
   }
 };
@@ -57,25 +65,27 @@ void assign_pairs_to_bodies(int bodies, Span<const Pair> pair, PairsOfBodies& pa
 }
 
 void reduce_to_bodies(Queue const& queue, SceneView const& scene, Span<const PairResult> result,
-                      PairsOfBodies const& pairs, BodyWrenches& bodies) {
+                      Span<const RollingResult> rolling, PairsOfBodies const& pairs, BodyWrenches& bodies) {
   int const n = scene.bodies();
   bodies.elastic.resize(n);
   bodies.damping.resize(n);
   bodies.friction.resize(n);
   bodies.stiffness.resize(n);
+  if (!rolling.empty() || !bodies.rolling.empty()) bodies.rolling.resize(n);
   parallel_for(queue, "integrate/wrenches", n,
-               ReduceBody{scene, result, pairs.first, pairs.entry, bodies.elastic, bodies.damping, bodies.friction,
-                          bodies.stiffness},
+               ReduceBody{scene, result, rolling, pairs.first, pairs.entry, bodies.elastic, bodies.damping,
+                          bodies.friction, bodies.stiffness, bodies.rolling},
                128);
 }
 
 double critical_time_step(SceneView const&, Span<const Pair> pair, Span<const PairResult> result,
-                          Span<const double> stiffness) {
+                          Span<const RollingResult> rolling, Span<const double> stiffness) {
   double least = std::numeric_limits<double>::infinity();
   for (int k = 0; k < pair.size(); ++k) {
     if (result[k].active == 0) continue;
     double const omega2 = stiffness[pair[k].a] + (pair[k].with_plane() ? 0 : stiffness[pair[k].b]);
-    double const zeta = result[k].damping_ratio;
+    double const turning = rolling.empty() ? 0 : rolling[k].damping_ratio;
+    double const zeta = std::max(result[k].damping_ratio, turning);
     if (omega2 > 0) least = std::min(least, 2 / std::sqrt(omega2) * (std::sqrt(1 + zeta * zeta) - zeta));
   }
   return least;

@@ -5,7 +5,7 @@
 #include "kernels/base/parallel.h"
 #include "kernels/contact_laws.h"
 #include "kernels/node_access.h"
-#include "kernels/tangential.h"
+#include "kernels/rolling.h"
 
 namespace scree {
 namespace {
@@ -25,6 +25,7 @@ struct ReducePair {
   Span<const int> history_first, history_count, history_node;
   Span<const Vec3> history_xi;
   Span<Vec3> next_xi;  // of every active node; empty without friction
+  RollingView rolling;
   Span<PairResult> result;
 
   // An active node in the world frame.
@@ -103,7 +104,7 @@ struct ReducePair {
 
   SCREE_HD void dissipative_pass(Pair const& p, int which, double share, int side, PressureLaw const& law,
                                  ContactParameters const& parameters, double beta, double beta_t, Vec3 centre_b,
-                                 PairResult& out) const {
+                                 Vec3& pressing, PairResult& out) const {
     bool const friction = parameters.friction > 0;
     double const secant = law.secant();
     Vec3 const turn = mean_spin(kinematics, p) * options.time_step;
@@ -115,6 +116,7 @@ struct ReducePair {
           point_velocity(state, kinematics, s.carrier, s.x) - point_velocity(state, kinematics, s.partner, s.x);
       double total = pressure + beta * law.damping_weight(s.phi) * dot(s.gradient, v);
       total = total > 0 ? total : 0;  // a contact pushes, it never pulls
+      pressing += s.gradient * (s.sign * s.weight * total);
       if (beta > 0)
         add(out.damping, s.gradient * (s.sign * s.weight * (total - pressure)), s.x, state.position[p.a], centre_b);
       if (!next_xi.empty()) next_xi[i] = {};
@@ -137,6 +139,7 @@ struct ReducePair {
     if (closed_form[k]) return;
     Pair const p = pair[k];
     PairResult out;
+    if (rolling.on()) rolling.next_angle[k] = {}, rolling.next_stiffness[k] = 0, rolling.result[k] = {};
     int const sides[2] = {side_of_pair[2 * std::size_t(k)], side_of_pair[2 * std::size_t(k) + 1]};
     double const share = sides[0] >= 0 && sides[1] >= 0 ? 0.5 : 1;
     ContactParameters const& parameters = contact_parameters(scene, p);
@@ -164,13 +167,17 @@ struct ReducePair {
       sums.stiffness = smooth > sums.stiffness ? smooth : sums.stiffness;  // for the critical step: nodes may move on
     }
     double const beta_t = sums.tangential > 0 ? 2 * zeta * std::sqrt(mass / sums.tangential) : 0;
+    Vec3 pressing;  // normal force on a, with its damping [N]
     for (int which = 0; which < 2; ++which)
       if (sides[which] >= 0)
-        dissipative_pass(p, which, share, sides[which], law, parameters, beta, beta_t, centre_b, out);
+        dissipative_pass(p, which, share, sides[which], law, parameters, beta, beta_t, centre_b, pressing, out);
     out.stiffness = sums.stiffness > sums.tangential ? sums.stiffness : sums.tangential;
     out.damping_ratio = zeta;
     out.arm2_a = norm2(x - state.position[p.a]);
     out.arm2_b = p.with_plane() ? 0 : norm2(x - centre_b);
+    if (rolling.on())
+      resist_rolling(scene, kinematics, rolling, p, k, options.time_step, n, norm(pressing), sums.stiffness, out.arm2_a,
+                     out.arm2_b);
     result[k] = out;
   }
 };
@@ -180,7 +187,7 @@ struct ReducePair {
 void reduce_node_contacts(Queue const& queue, SceneView const& scene, StateView const& state, KinematicsView kinematics,
                           ContactOptions const& options, Span<const Pair> pair, Span<const char> closed_form,
                           NodeLists const& lists, ActiveNodes const& active, NodeHistory const& history,
-                          NodeHistory& next, Span<PairResult> result) {
+                          NodeHistory& next, RollingView const& rolling, Span<PairResult> result) {
   int const sides = static_cast<int>(lists.side.size());
   if (scene.friction) {
     next.node = active.node;
@@ -192,7 +199,7 @@ void reduce_node_contacts(Queue const& queue, SceneView const& scene, StateView 
   parallel_for(queue, "contact_reduce/pairs", pair.size(),
                ReducePair{scene, state, kinematics, options, pair, closed_form, lists.side_of_pair, active.first,
                           active.node, active.sample.point, active.sample.phi, active.sample.gradient, history.first,
-                          history.count, history.node, history.xi, next.xi, result},
+                          history.count, history.node, history.xi, next.xi, rolling, result},
                32);
 }
 

@@ -46,6 +46,28 @@ struct SphereHistory {
   std::vector<double> stiffness;  // tangential stiffness at which it was stored [N/m]; 0: no contact (n_pairs)
 };
 
+// Rolling resistance: what a pair remembers, and its couple. Arrays of all pairs, or empty without the effect.
+struct RollingHistory {
+  std::vector<Vec3> angle;        // elastic relative rotation, world frame [rad] (n_pairs)
+  std::vector<double> stiffness;  // at which it was stored [N m]; 0: no contact (n_pairs)
+};
+struct RollingResult {
+  Vec3 torque_on_a;          // [N m]; the opposite one acts on b
+  double energy = 0;         // stored [J]
+  double stiffness = 0;      // k_r [N m]
+  double damping_ratio = 0;  // of the lighter body turning by itself
+  double loss = 0;           // independent measure of the work lost in this step [J]
+};
+struct RollingView {
+  Span<const Vec3> angle;
+  Span<const double> stiffness;
+  Span<Vec3> next_angle;
+  Span<double> next_stiffness;
+  Span<RollingResult> result;
+
+  SCREE_HD bool on() const { return !result.empty(); }
+};
+
 struct ContactOptions {
   double time_step = 0;             // [s]
   bool normalise_gradient = false;  // wrong on purpose: the meter tests must notice it
@@ -56,12 +78,13 @@ struct ContactOptions {
 void reduce_node_contacts(Queue const& queue, SceneView const& scene, StateView const& state, KinematicsView kinematics,
                           ContactOptions const& options, Span<const Pair> pair, Span<const char> closed_form,
                           NodeLists const& lists, ActiveNodes const& active, NodeHistory const& history,
-                          NodeHistory& next, Span<PairResult> result);
+                          NodeHistory& next, RollingView const& rolling, Span<PairResult> result);
 
 // Closed-form contacts of sphere-sphere and sphere-plane pairs.
 void sphere_contacts(Queue const& queue, SceneView const& scene, StateView const& state, KinematicsView kinematics,
                      ContactOptions const& options, Span<const Pair> pair, Span<const char> closed_form,
-                     SphereHistory const& history, SphereHistory& next, Span<PairResult> result);
+                     SphereHistory const& history, SphereHistory& next, RollingView const& rolling,
+                     Span<PairResult> result);
 
 // Which pairs a body takes part in: entry 2 pair + (0: as a, 1: as b), ascending (CSR over bodies).
 struct PairsOfBodies {
@@ -71,14 +94,15 @@ void assign_pairs_to_bodies(int bodies, Span<const Pair> pair, PairsOfBodies& pa
 
 struct BodyWrenches {
   std::vector<Wrench> elastic, damping, friction;  // (n_bodies)
+  std::vector<Vec3> rolling;                       // couples [N m] (n_bodies), empty without rolling resistance
   std::vector<double> stiffness;                   // S_i of the critical step [1/s^2] (n_bodies)
 };
 void reduce_to_bodies(Queue const& queue, SceneView const& scene, Span<const PairResult> result,
-                      PairsOfBodies const& pairs, BodyWrenches& bodies);
+                      Span<const RollingResult> rolling, PairsOfBodies const& pairs, BodyWrenches& bodies);
 
 // Largest stable step of this contact network: (2/omega)(sqrt(1+zeta^2) - zeta), omega^2 = max over pairs (S_i + S_j);
 // infinity without contact. Conservative (design physics.md section 4).
 double critical_time_step(SceneView const& scene, Span<const Pair> pair, Span<const PairResult> result,
-                          Span<const double> stiffness);
+                          Span<const RollingResult> rolling, Span<const double> stiffness);
 
 }  // namespace scree

@@ -15,6 +15,7 @@ SCREE_HD void half_kick(SceneView const& scene, StateView const& state, Wrenches
   total += w.friction[i];
   total += w.external[i];
   if (!w.applied.empty()) total += w.applied[i];
+  if (!w.rolling.empty()) total.torque += w.rolling[i];
   velocity = state.velocity[i] + total.force * (0.5 * dt / scene.mass[i]);
   angular_momentum = state.angular_momentum[i] + total.torque * (0.5 * dt);
 }
@@ -26,6 +27,7 @@ SCREE_HD void account(SceneView const& scene, StateView const& state, WrenchesVi
   work.friction[i] += 0.5 * dt * (dot(w.friction[i].force, half_velocity) + dot(w.friction[i].torque, spin));
   if (!w.applied.empty())
     work.applied[i] += 0.5 * dt * (dot(w.applied[i].force, half_velocity) + dot(w.applied[i].torque, spin));
+  if (!w.rolling.empty()) work.rolling[i] += 0.5 * dt * dot(w.rolling[i], spin);
 }
 
 struct OpenStep {

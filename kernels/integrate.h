@@ -13,6 +13,7 @@ namespace scree {
 struct WrenchesView {
   Span<const Wrench> elastic, damping, friction, external;
   Span<const Wrench> applied;  // empty: none
+  Span<const Vec3> rolling;    // couples of rolling resistance [N m]; empty: none
 };
 
 // Work done on each body since the start, by kind [J] (n_bodies each): half-step velocity times the mean of the old
@@ -20,6 +21,7 @@ struct WrenchesView {
 struct WorkView {
   Span<double> damping, friction;
   Span<double> applied;  // empty: none
+  Span<double> rolling;  // empty: none
 };
 
 // Half kick with the wrenches of step n, then drift over dt: leaves half-step velocities at the poses of step n + 1.

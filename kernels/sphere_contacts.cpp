@@ -3,7 +3,7 @@
 #include "kernels/base/parallel.h"
 #include "kernels/contact_laws.h"
 #include "kernels/contact_reduce.h"
-#include "kernels/tangential.h"
+#include "kernels/rolling.h"
 
 namespace scree {
 namespace {
@@ -19,17 +19,11 @@ struct SpherePair {
   Span<const double> history_stiffness;
   Span<Vec3> next_xi;  // empty without friction
   Span<double> next_stiffness;
+  RollingView rolling;
   Span<PairResult> result;
 
   SCREE_HD double radius(int body) const {
     return scene.shape_record(body).analytic.half_size.x * scene.diameter[body];
-  }
-
-  // Elastic force kept when the contact stiffens, elastic stretch kept when it softens: neither makes energy.
-  SCREE_HD Vec3 restored(int k, double stiffness) const {
-    double const before = history_stiffness[k];
-    if (!(before > 0)) return {};
-    return before < stiffness ? history_xi[k] * (before / stiffness) : history_xi[k];
   }
 
   SCREE_HD void operator()(int k) const {
@@ -37,6 +31,7 @@ struct SpherePair {
     Pair const p = pair[k];
     PairResult out;
     if (!next_xi.empty()) next_xi[k] = {}, next_stiffness[k] = 0;
+    if (rolling.on()) rolling.next_angle[k] = {}, rolling.next_stiffness[k] = 0, rolling.result[k] = {};
     double const ra = radius(p.a);
     Vec3 const xa = state.position[p.a];
     Vec3 n;  // from b to a
@@ -81,7 +76,8 @@ struct SpherePair {
     out.stiffness = stiffness;
     double const k_t = law.tangential(overlap) * parameters.tangential;
     if (parameters.friction > 0 && k_t > 0) {
-      Vec3 const old = transport(restored(k, k_t), mean_spin(kinematics, p) * options.time_step, n);
+      Vec3 const old = transport(restored(history_xi[k], history_stiffness[k], k_t),
+                                 mean_spin(kinematics, p) * options.time_step, n);
       TangentialResult const t =
           slide(old, v - n * dot(n, v), options.time_step, 2 * parameters.damping_sphere * std::sqrt(mass / k_t),
                 parameters.friction * total / k_t);
@@ -93,6 +89,8 @@ struct SpherePair {
       out.friction_loss = k_t * t.loss;
       out.stiffness = stiffness > k_t ? stiffness : k_t;
     }
+    if (rolling.on())
+      resist_rolling(scene, kinematics, rolling, p, k, options.time_step, n, total, stiffness, out.arm2_a, out.arm2_b);
     result[k] = out;
   }
 };
@@ -101,14 +99,15 @@ struct SpherePair {
 
 void sphere_contacts(Queue const& queue, SceneView const& scene, StateView const& state, KinematicsView kinematics,
                      ContactOptions const& options, Span<const Pair> pair, Span<const char> closed_form,
-                     SphereHistory const& history, SphereHistory& next, Span<PairResult> result) {
+                     SphereHistory const& history, SphereHistory& next, RollingView const& rolling,
+                     Span<PairResult> result) {
   if (scene.friction) {
     next.xi.resize(pair.size());
     next.stiffness.resize(pair.size());
   }
   parallel_for(queue, "sphere_contacts/pairs", pair.size(),
                SpherePair{scene, state, kinematics, options, pair, closed_form, history.xi, history.stiffness, next.xi,
-                          next.stiffness, result},
+                          next.stiffness, rolling, result},
                256);
 }
 

@@ -58,6 +58,13 @@ SCREE_HD inline Vec3 transport(Vec3 xi, Vec3 rotation, Vec3 n) {
   return flat_length > 0 ? flat * (length / flat_length) : Vec3{};
 }
 
+// Stretch of a spring whose stiffness was `before` (0: there was none) and is `now`: the force is kept when the contact
+// stiffens, the stretch when it softens. Neither makes energy.
+SCREE_HD inline Vec3 restored(Vec3 stretch, double before, double now) {
+  if (!(before > 0)) return {};
+  return before < now ? stretch * (before / now) : stretch;
+}
+
 struct TangentialResult {
   Vec3 xi;        // to store [m]
   Vec3 traction;  // spring plus dashpot, in units of [m]: times stiffness gives the force against the motion

@@ -59,11 +59,14 @@ struct PlaneRecord {
 
 // Parameters of one material pair.
 struct ContactParameters {
-  PressureLaw normal;         // hertz: modulus E* / pi [Pa], see law_at_radius; modulus 0: no law was given
-  double tangential = 0;      // k_t / k_n, times normal.secant() [-]
-  double friction = 0;        // mu [-]; 0: none
-  double damping_nodes = 0;   // zeta of node contacts [-]; 0: none
-  double damping_sphere = 0;  // zeta of closed-form spheres, whose force clips once a pair [-]
+  PressureLaw normal;          // hertz: modulus E* / pi [Pa], see law_at_radius; modulus 0: no law was given
+  double tangential = 0;       // k_t / k_n, times normal.secant() [-]
+  double friction = 0;         // mu [-]; 0: none
+  double damping_nodes = 0;    // zeta of node contacts [-]; 0: none
+  double damping_sphere = 0;   // zeta of closed-form spheres, whose force clips once a pair [-]
+  double rolling = 0;          // mu_r [-]; 0: no rolling resistance
+  double rolling_ratio = 0;    // k_r / (K (mu_r R_r)^2) [-]
+  double rolling_damping = 0;  // eta_r, share of critical [-]
 };
 
 struct SceneView {

@@ -125,6 +125,8 @@ std::string ledger_table(LedgerRow const& r) {
   row("lost to contact damping", r.damping);
   row("lost to friction", r.friction);
   if (r.global_damping != 0) row("lost to global damping", r.global_damping);
+  if (r.elastic_rolling != 0) row("elastic, rolling", r.elastic_rolling);
+  if (r.rolling != 0) row("lost to rolling resistance", r.rolling);
   if (r.drag != 0) row("lost to drag", r.drag);
   row("removed by the program", r.removed);
   row("not accounted for", r.residual);

@@ -280,6 +280,18 @@ TEST_F(CaseFile, EachLawHasItsOwnNormalKeys) {
   expect_one(refused(law("herz", "stiffness = 1e5")), {"'herz' is unknown", "'hertz'"});
 }
 
+TEST_F(CaseFile, RollingResistanceHasItsRanges) {
+  auto const rolling = [&](std::string const& keys) {
+    return with(minimal, "friction = 0.5", "friction = 0.5\nrolling = { " + keys + " }");
+  };
+  RollingCase const given = *load(rolling("friction = 0.1")).contact.at(0).rolling;
+  EXPECT_EQ(std::tie(given.friction, given.stiffness_ratio, given.damping), std::make_tuple(0.1, 2.25, 0.3));
+  expect_one(refused(rolling("")), {"rolling.friction: is missing"});
+  expect_one(refused(rolling("friction = -0.1")), {"rolling.friction: -0.1", "must be >= 0", "drive the rolling"});
+  expect_one(refused(rolling("friction = 0.1, damping = 1.5")), {"rolling.damping: 1.5", "<= 1"});
+  expect_one(refused(rolling("friction = 0.1, stiffness_ratio = 0")), {"rolling.stiffness_ratio: 0", "must be > 0"});
+}
+
 TEST_F(CaseFile, InsertionThatCannotFitIsRefused) {
   // floor(1/0.1) = 10 cells a side (as floating point has it), 40 layers: 4,000 places.
   expect_one(refused(with(minimal, "count = 5", "count = 5000")), {"grains.mix.insert.box", "not 5000"});
@@ -483,6 +495,7 @@ Case unusual_case(fs::path const& library) {
   c.contact[2] = {{"steel", "steel"}, ContactLaw::winkler, 1e20, 2e6, 0.01, 0.5, {}, {}, {}};
   c.contact.resize(5);
   c.contact[3] = {{"rock", "wood"}, ContactLaw::linear, {}, 3e5, 0.02, 0.75, 0.4, 0.6, {}, 3e-3};
+  c.contact[3].rolling = RollingCase{0.2, 1.5, 0.25};
   c.contact[4] = {{"wood", "wood"}, ContactLaw::hertz, {}, 2e6, 0.03, 0.5, {}, {}, 0.5, 1e-3, 7.1e10, -0.25};
   c.grains.resize(5);
   c.grains[0] = {"mix", "rock", {"grains:ballast/*", "sphere"}, Evaluator::analytic, 123, 4, 0.05, {}};
@@ -553,6 +566,10 @@ void expect_same(ContactCase const& a, ContactCase const& b) {
             std::tie(b.pair, b.law, b.kappa, b.tangential_ratio, b.friction, b.damping_ratio, b.restitution));
   if (a.kappa) return;  // stiffness is unused beside kappa
   EXPECT_EQ(std::tie(a.stiffness, a.at_overlap, a.onset), std::tie(b.stiffness, b.at_overlap, b.onset));
+  ASSERT_EQ(a.rolling.has_value(), b.rolling.has_value());
+  if (a.rolling)
+    EXPECT_EQ(std::tie(a.rolling->friction, a.rolling->stiffness_ratio, a.rolling->damping),
+              std::tie(b.rolling->friction, b.rolling->stiffness_ratio, b.rolling->damping));
   EXPECT_EQ(std::tie(a.youngs_modulus, a.poisson_ratio), std::tie(b.youngs_modulus, b.poisson_ratio));
 }
 
