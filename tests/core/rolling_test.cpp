@@ -1,5 +1,5 @@
-// rolling_test.cpp: rolling resistance of closed-form and of node-covered spheres: holds, rolls, rings down; on and
-// off. SPDX-License-Identifier: Apache-2.0
+// rolling_test.cpp: rolling resistance of closed-form and node-covered spheres: holds, rolls, rings down; on and off.
+// SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
 #include <algorithm>
