@@ -177,6 +177,7 @@ struct Case {
   std::optional<DragCase> drag;
   std::optional<DampingCase> damping;
   std::vector<ForceCase> force;
+  std::vector<DeleteCase> deletion;  // [[delete]]
   std::vector<LibraryCase> library;
   std::vector<MaterialCase> material;
   std::vector<ContactCase> contact;

@@ -393,6 +393,7 @@ std::string key_by_name(Case const& c, std::string const& key) {
   if (list == "grains") name = name_at(c.grains, index);
   if (list == "wall") name = name_at(c.wall, index);
   if (list == "force") name = name_at(c.force, index);
+  if (list == "delete") name = name_at(c.deletion, index);
   return name.empty() ? key : list + "." + name + key.substr(second);
 }
 

@@ -1,4 +1,4 @@
-// case_effects.h: the user's words about effects on bodies: drag, damping, applied forces. See case.h.
+// case_effects.h: the user's words about effects on bodies: drag, damping, applied forces, deletion. See case.h.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -31,6 +31,15 @@ struct ForceCase {
   double start = 0;            // [s]
   std::optional<double> stop;  // [s]; absent: to the end
   TimeTable table;             // time [s] -> factor [-]; empty: none
+};
+
+// Grains whose centroid is outside or inside a box, or behind a plane, leave for good.
+struct DeleteCase {
+  std::string name;
+  bool plane = false;           // else a box
+  bool inside = false;          // box: those inside leave, else those outside
+  Vec3 min, max;                // box [m]
+  Vec3 point, normal{0, 0, 1};  // plane: a point on it [m]; the normal points into the space that is kept
 };
 
 }  // namespace scree

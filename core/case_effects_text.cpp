@@ -27,6 +27,23 @@ void read_force(CaseReader r, ForceCase& out) {
   r.finish();
 }
 
+void read_delete(CaseReader r, DeleteCase& out) {
+  r.text("name", out.name, Need::required);
+  if (!r.choice<bool>("kind", out.plane, {{"box", false}, {"plane", true}}, {}, Need::required)) {
+    out.plane = true;  // the other keys depend on the kind; a plane's defaults raise no further complaint
+    return;
+  }
+  if (out.plane) {
+    r.vector("point", out.point, Need::required);
+    r.vector("normal", out.normal, Need::required);
+  } else {
+    r.choice<bool>("side", out.inside, {{"outside", false}, {"inside", true}});
+    r.vector("min", out.min, Need::required);
+    r.vector("max", out.max, Need::required);
+  }
+  r.finish();
+}
+
 class EffectsChecker {
  public:
   EffectsChecker(Case const& c, std::vector<CaseProblem>& found) : c_(c), found_(found) {
@@ -40,7 +57,7 @@ class EffectsChecker {
   }
 
   void force(std::string const& at, ForceCase const& f) {
-    name(at + ".name", f.name);
+    name(at + ".name", f.name, forces_);
     if (std::find(grains_.begin(), grains_.end(), f.grains) == grains_.end())
       fail(at + ".grains", fmt::format("unknown grains '{}'{}; defined: {}", f.grains, did_you_mean(f.grains, grains_),
                                        grains_.empty() ? "none" : fmt::format("{}", fmt::join(grains_, ", "))));
@@ -50,6 +67,20 @@ class EffectsChecker {
     if (f.stop && !(*f.stop > f.start))
       fail(at + ".stop", fmt::format("{} s must lie after start = {} s", *f.stop, f.start));
     table(at + ".table", f.table);
+  }
+
+  void deletion(std::string const& at, DeleteCase const& d) {
+    name(at + ".name", d.name, deletions_);
+    if (d.plane) {
+      finite(at + ".point", d.point);
+      if (!(is_finite(d.normal) && norm(d.normal) > 0))
+        fail(at + ".normal", "must have a length: it points into the space that is kept");
+      return;
+    }
+    Vec3 const size = d.max - d.min;
+    if (!(is_finite(size) && size.x > 0 && size.y > 0 && size.z > 0))
+      fail(at + ".max",
+           fmt::format("the box is {} x {} x {} m: max must exceed min on every axis", size.x, size.y, size.z));
   }
 
   void not_negative(std::string const& key, double value, char const* reason) {
@@ -65,12 +96,12 @@ class EffectsChecker {
   }
 
   // Names are what --set addresses and messages say.
-  void name(std::string const& key, std::string const& word) {
+  void name(std::string const& key, std::string const& word, std::vector<std::string>& names) {
     if (word.empty() || word.find_first_of(".=: \t\n") != std::string::npos)
       fail(key, fmt::format("'{}' must be a word without blanks and . = :", word));
-    else if (std::count(names_.begin(), names_.end(), word))
+    else if (std::count(names.begin(), names.end(), word))
       fail(key, fmt::format("'{}' is used twice: names must differ", word));
-    names_.push_back(word);
+    names.push_back(word);
   }
 
   void table(std::string const& key, TimeTable const& t) {
@@ -86,7 +117,7 @@ class EffectsChecker {
 
   Case const& c_;
   std::vector<CaseProblem>& found_;
-  std::vector<std::string> grains_, names_;
+  std::vector<std::string> grains_, forces_, deletions_;
 };
 
 std::string vector(Vec3 v) { return fmt::format("[{}, {}, {}]", v.x, v.y, v.z); }
@@ -106,6 +137,14 @@ std::string force_to_toml(ForceCase const& f) {
   return out + fmt::format("table = [{}]  # [s], factor\n", fmt::join(points, ", "));
 }
 
+std::string delete_to_toml(DeleteCase const& d) {
+  std::string const out =
+      fmt::format("\n[[delete]]\nname = \"{}\"\nkind = \"{}\"\n", d.name, d.plane ? "plane" : "box");
+  if (d.plane) return out + fmt::format("point = {}  # [m]\nnormal = {}\n", vector(d.point), vector(d.normal));
+  return out + fmt::format("side = \"{}\"\nmin = {}  # [m]\nmax = {}  # [m]\n", d.inside ? "inside" : "outside",
+                           vector(d.min), vector(d.max));
+}
+
 }  // namespace
 
 void read_effects(CaseReader& root, Case& out) {
@@ -121,6 +160,7 @@ void read_effects(CaseReader& root, Case& out) {
     damping->finish();
   }
   for (CaseReader const& entry : root.tables("force")) read_force(entry, out.force.emplace_back());
+  for (CaseReader const& entry : root.tables("delete")) read_delete(entry, out.deletion.emplace_back());
 }
 
 void check_effects(Case const& c, std::vector<CaseProblem>& found) {
@@ -128,6 +168,7 @@ void check_effects(Case const& c, std::vector<CaseProblem>& found) {
   if (c.drag) check.drag(*c.drag);
   if (c.damping) check.not_negative("damping.rate", c.damping->rate, "a rate in 1/s; a negative one would add energy");
   for (std::size_t i = 0; i < c.force.size(); ++i) check.force(fmt::format("force.{}", i), c.force[i]);
+  for (std::size_t i = 0; i < c.deletion.size(); ++i) check.deletion(fmt::format("delete.{}", i), c.deletion[i]);
 }
 
 std::string effects_to_toml(Case const& c) {
@@ -137,6 +178,7 @@ std::string effects_to_toml(Case const& c) {
                        c.drag->density, c.drag->coefficient, vector(c.drag->fluid_velocity));
   if (c.damping) out += fmt::format("\n[damping]\nrate = {}  # [1/s]\n", c.damping->rate);
   for (ForceCase const& f : c.force) out += force_to_toml(f);
+  for (DeleteCase const& d : c.deletion) out += delete_to_toml(d);
   return out;
 }
 

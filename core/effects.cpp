@@ -30,6 +30,7 @@ Effects effects_of(Case const& c, Scene const& scene) {
   e.global_damping = c.damping && c.damping->rate > 0;
   e.insertion = std::any_of(c.grains.begin(), c.grains.end(),
                             [](GrainsCase const& g) { return g.insert.kind == InsertCase::Kind::rate && g.count > 0; });
+  e.deletion = !c.deletion.empty();
   e.settle = c.time.settle.has_value();
   e.settle_damping = e.settle && c.time.settle->damping > 0;
   return e;
@@ -57,6 +58,7 @@ std::vector<std::string> stages_of(Effects const& e) {
   add(e.drag, "drag");
   add(e.global_damping, "damping");
   add(e.settle_damping, "global_damping");
+  add(e.deletion, "delete");
   add(true, "watch");
   return stages;
 }
@@ -68,6 +70,7 @@ std::vector<std::string> names_of(Effects const& e) {
   if (e.drag) names.push_back("drag");
   if (e.global_damping) names.push_back("global damping");
   if (e.insertion) names.push_back("insertion");
+  if (e.deletion) names.push_back("deletion");
   if (e.friction) names.push_back("friction");
   if (e.rolling) names.push_back("rolling resistance");
   if (e.damping) names.push_back("damping");
@@ -79,6 +82,7 @@ std::vector<std::string> ledger_columns_of(Effects const& e) {
   std::vector<std::string> columns;
   if (e.rolling) columns.insert(columns.end(), {"elastic_rolling", "rolling"});
   if (e.insertion) columns.push_back("inserted");
+  if (e.deletion) columns.push_back("deleted");
   if (e.force) columns.push_back("applied");
   if (e.drag) columns.push_back("drag");
   if (e.global_damping || e.settle_damping) columns.push_back("global_damping");

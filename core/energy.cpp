@@ -30,10 +30,11 @@ LedgerRow make_ledger(Scene const& scene, std::optional<Vec3> gravity, State con
   row.rolling = -sum(state.work_rolling) - row.elastic_rolling;
   row.global_damping = sum(state.removed_by_damping);
   row.inserted = state.inserted_energy;
+  row.deleted = state.deleted_energy;
   row.drag = sum(state.removed_by_drag);
   row.applied = sum(state.work_applied);
   row.residual = mechanical_energy(row) - state.initial_energy - row.inserted - row.wall_work - row.applied +
-                 row.damping + row.friction + row.rolling + row.global_damping + row.drag + row.removed;
+                 row.damping + row.friction + row.rolling + row.global_damping + row.drag + row.deleted + row.removed;
   row.moved = std::abs(row.damping) + std::abs(row.friction) + std::abs(row.global_damping) + std::abs(row.wall_work) +
               state.exchanged_kinetic + std::abs(row.removed) + std::abs(row.drag) + std::abs(row.applied) +
               std::abs(row.rolling) + state.kinetic_peak;

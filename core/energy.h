@@ -1,6 +1,6 @@
 // energy.h: the energy ledger: where every joule came from and went.
 // kinetic + potential + elastic = initial + wall work + applied + inserted - damping - friction - global damping - drag
-//                                 - removed;
+//                                 - deleted - removed;
 // the residual is what does not close, the energy moved is what it is judged against.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

@@ -60,20 +60,20 @@ void activate(Case const& c, Scene const& scene, int body, Vec3 position, State&
 
 }  // namespace
 
-void start_insertion(Case const& c, Scene const& scene, Frame const* start, State& state) {
-  state.activity.assign(scene.bodies(), Activity::active);
+void start_insertion(Case const& c, Scene const& scene, State& state) {
+  bool const fresh = state.activity.empty();
+  if (fresh) state.activity.assign(scene.bodies(), Activity::active);
   state.insertion.assign(c.grains.size(), {});
   int body = 0;
   for (std::size_t g = 0; g < c.grains.size(); ++g) {
-    state.insertion[g].random = random_stream(c.seed, static_cast<int>(g), Draw::places)();
-    if (over_time(c.grains[g])) std::fill_n(state.activity.begin() + body, c.grains[g].count, Activity::pending);
+    Insertion& in = state.insertion[g];
+    in.random = random_stream(c.seed, static_cast<int>(g), Draw::places)();
+    auto const first = state.activity.begin() + body, end = first + c.grains[g].count;
     body += c.grains[g].count;
+    if (!over_time(c.grains[g])) continue;
+    if (fresh) std::fill(first, end, Activity::pending);
+    in.done = c.grains[g].count - static_cast<int>(std::count(first, end, Activity::pending));
   }
-  if (!start || start->activity.empty()) return;
-  state.activity = start->activity;
-  for (int i = 0; i < scene.bodies(); ++i)
-    if (over_time(c.grains[scene.group_of[i]]) && state.activity[i] != Activity::pending)
-      ++state.insertion[scene.group_of[i]].done;
 }
 
 void insert_due(Queue const& queue, Case const& c, Scene const& scene, State& state, Workspace& work,

@@ -11,9 +11,8 @@
 
 namespace scree {
 
-// Activity and insertion of `state` for time 0: grains of such entries are pending, unless `start` (may be null) says
-// which bodies are active.
-void start_insertion(Case const& c, Scene const& scene, Frame const* start, State& state);
+// Insertion of `state` for time 0: grains of such entries are pending, unless state.activity says otherwise already.
+void start_insertion(Case const& c, Scene const& scene, State& state);
 
 // Activates the grains that are due at state.time, each at a free place of its box; the grain that finds none blocks
 // its entry until it does. Energy brought in goes to state.inserted_energy. Drops the pair list when something changed.

@@ -53,6 +53,7 @@ struct LedgerRow {  // [J]; see core/energy.h
   double applied = 0;                       // work of applied forces and torques
   double drag = 0;                          // lost to drag
   double elastic_rolling = 0, rolling = 0;  // stored in and lost to rolling resistance
+  double deleted = 0;                       // of bodies that were deleted
 };
 
 struct StageRow {

@@ -22,7 +22,7 @@ struct LedgerColumn {
   double LedgerRow::*value;
   bool every_run = true;
 };
-std::array<LedgerColumn, 17> constexpr ledger{{{"time", &LedgerRow::time},
+std::array<LedgerColumn, 18> constexpr ledger{{{"time", &LedgerRow::time},
                                                {"kinetic", &LedgerRow::kinetic},
                                                {"potential", &LedgerRow::potential},
                                                {"elastic_normal", &LedgerRow::elastic_normal},
@@ -37,6 +37,7 @@ std::array<LedgerColumn, 17> constexpr ledger{{{"time", &LedgerRow::time},
                                                {"drag", &LedgerRow::drag, false},
                                                {"elastic_rolling", &LedgerRow::elastic_rolling, false},
                                                {"rolling", &LedgerRow::rolling, false},
+                                               {"deleted", &LedgerRow::deleted, false},
                                                {"residual", &LedgerRow::residual},
                                                {"moved", &LedgerRow::moved}}};
 static_assert(sizeof(LedgerRow) == ledger.size() * sizeof(double), "a ledger entry has no column");

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/deletion.h"
 #include "core/effect_stages.h"
 #include "core/energy.h"
 #include "core/insertion.h"
@@ -42,7 +43,9 @@ Simulation::Impl::Impl(Case const& c_, SimulationOptions const& options_, Frame 
   if (effects.force) state.work_applied.assign(n, 0);
   if (effects.rolling) state.work_rolling.assign(n, 0);
   if (effects.drag) state.removed_by_drag.assign(n, 0);
-  if (effects.insertion) start_insertion(c, scene, start, state);
+  if (start && (effects.insertion || effects.deletion)) state.activity = start->activity;
+  if (effects.insertion) start_insertion(c, scene, state);
+  if (effects.deletion) start_deletion(c, scene, state);
   work.external.assign(n, {});
   if (effects.gravity) apply_gravity(queue, scene.view(), *c.gravity, work.external);
   // Free flight needs no small step, but output does: at least a hundred steps a run.
@@ -78,6 +81,7 @@ RunState Simulation::Impl::step() {
   brake_bodies(queue, c, effects, view, dt / 2, state);
   state.time += dt;
   ++state.step;
+  if (effects.deletion) delete_leaving(queue, c, scene, state, work);
   report = watch(queue, scene, state, gravity_size(), work);
   state.kinetic_peak = std::max(state.kinetic_peak, report.kinetic_total);
   check_limits();
@@ -85,6 +89,7 @@ RunState Simulation::Impl::step() {
   if (effects.settle) settle();
   if (run_state == RunState::running && state.time >= c.time.end * (1 - 1e-12)) run_state = RunState::ended;
   if (run_state != RunState::running && effects.insertion) report_insertion(c, state, messages);
+  if (run_state != RunState::running && effects.deletion) report_deletion(c, state, messages);
   return run_state;
 }
 

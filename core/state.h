@@ -33,18 +33,20 @@ struct State {
   double time = 0, time_step = 0;                                       // [s]
   std::int64_t step = 0;
   // Of runs with insertion over time or deletion; else empty.
-  std::vector<Activity> activity;    // (n_bodies)
-  std::vector<Insertion> insertion;  // (n_groups); empty without insertion over time
+  std::vector<Activity> activity;     // (n_bodies)
+  std::vector<Insertion> insertion;   // (n_groups); empty without insertion over time
+  std::vector<std::int64_t> deleted;  // bodies that left, by [[delete]] entry
   // Settle schedule.
   bool damped = false;
   double quiet_since = -1;  // [s]; -1: not quiet
   // Ledger.
   double initial_energy = 0, kinetic_peak = 0;  // [J]
-  double inserted_energy = 0;                   // kinetic and potential energy that insertion brought in [J]
+  double deleted_energy = 0;     // of bodies that were deleted, with the elastic energy of their contacts [J]
+  double inserted_energy = 0;    // kinetic and potential energy that insertion brought in [J]
   double exchanged_kinetic = 0;  // kinetic energy of all that came or went: potential energy has no zero to be moved
                                  // against [J]
 
-  bool is_active(int body) const { return activity.empty() || activity[body] == Activity::active; }
+  bool is_active(std::size_t body) const { return body >= activity.size() || activity[body] == Activity::active; }
 
   StateView view() { return {position, orientation, velocity, angular_momentum, activity}; }
 };
@@ -70,6 +72,7 @@ struct Workspace {
   std::vector<PairResult> result;
   std::vector<RollingResult> rolling;  // (n_pairs), empty without rolling resistance
   std::vector<double> kinetic;         // [J] (n_bodies)
+  std::vector<int> leaving;  // [[delete]] entry that takes a body; -1: none (n_bodies), empty without deletion
   std::int64_t pair_rebuilds = 0;
 
   WrenchesView wrenches(BodyWrenches const& b) const {

@@ -58,6 +58,27 @@ struct GroupForce {
   SCREE_HD void operator()(int i) const { applied[i] = of_group[group_of[i]]; }
 };
 
+struct LeavingBody {
+  StateView state;
+  Span<const DeleteRegion> region;
+  Span<int> leaving;
+
+  SCREE_HD static bool contains(DeleteRegion const& r, Vec3 x) {
+    if (r.plane) return dot(r.normal, x - r.point) < 0;
+    bool const in = x.x >= r.box.min.x && x.x <= r.box.max.x && x.y >= r.box.min.y && x.y <= r.box.max.y &&
+                    x.z >= r.box.min.z && x.z <= r.box.max.z;
+    return in == r.inside;
+  }
+
+  SCREE_HD void operator()(int i) const {
+    leaving[i] = -1;
+    // What is not finite is the watch's to find, not a way out.
+    if (!state.active(i) || !is_finite(state.position[i])) return;
+    for (int k = 0; k < region.size() && leaving[i] < 0; ++k)
+      if (contains(region[k], state.position[i])) leaving[i] = k;
+  }
+};
+
 }  // namespace
 
 void apply_gravity(Queue const& queue, SceneView const& scene, Vec3 acceleration, Span<Wrench> external) {
@@ -77,6 +98,11 @@ void apply_drag(Queue const& queue, SceneView const& scene, StateView const& sta
 void apply_group_forces(Queue const& queue, SceneView const& scene, Span<const int> group_of,
                         Span<const Wrench> of_group, Span<Wrench> applied) {
   parallel_for(queue, "force/bodies", scene.bodies(), GroupForce{group_of, of_group, applied}, 1024);
+}
+
+void find_leaving(Queue const& queue, SceneView const& scene, StateView const& state, Span<const DeleteRegion> region,
+                  Span<int> leaving) {
+  parallel_for(queue, "delete/find", scene.bodies(), LeavingBody{state, region, leaving}, 1024);
 }
 
 }  // namespace scree

@@ -31,4 +31,14 @@ void apply_drag(Queue const& queue, SceneView const& scene, StateView const& sta
 void apply_group_forces(Queue const& queue, SceneView const& scene, Span<const int> group_of,
                         Span<const Wrench> of_group, Span<Wrench> applied);
 
+// A region that bodies leave the simulation in: a box, its inside or its outside, or all that is behind a plane.
+struct DeleteRegion {
+  bool plane = false, inside = false;
+  Box box;             // [m]
+  Vec3 point, normal;  // plane [m]
+};
+// leaving[i] = the first region that active body i has its centroid in; -1: none (n_bodies).
+void find_leaving(Queue const& queue, SceneView const& scene, StateView const& state, Span<const DeleteRegion> region,
+                  Span<int> leaving);
+
 }  // namespace scree

@@ -95,9 +95,9 @@ struct StateView {
   Span<Quat> orientation;         // body -> world (n_bodies)
   Span<Vec3> velocity;            // [m/s] (n_bodies)
   Span<Vec3> angular_momentum;    // about the centroid, world frame [kg m2/s] (n_bodies)
-  Span<const Activity> activity;  // (n_bodies); empty: all are active
+  Span<const Activity> activity;  // of the bodies that can come or go, from 0 on; the others are active
 
-  SCREE_HD bool active(int i) const { return activity.empty() || activity[i] == Activity::active; }
+  SCREE_HD bool active(int i) const { return i >= activity.size() || activity[i] == Activity::active; }
 };
 
 // Spin [rad/s] of a body from its angular momentum.

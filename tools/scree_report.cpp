@@ -128,6 +128,7 @@ std::string ledger_table(LedgerRow const& r) {
   if (r.elastic_rolling != 0) row("elastic, rolling", r.elastic_rolling);
   if (r.rolling != 0) row("lost to rolling resistance", r.rolling);
   if (r.drag != 0) row("lost to drag", r.drag);
+  if (r.deleted != 0) row("of deleted bodies", r.deleted);
   row("removed by the program", r.removed);
   row("not accounted for", r.residual);
   return out + fmt::format("  {:<44} {:>14.2e}\n", "not accounted for / energy moved",

@@ -352,6 +352,29 @@ TEST_F(CaseFile, EffectsOnBodies) {
   EXPECT_TRUE(!plain.drag && !plain.damping && plain.force.empty());
 }
 
+TEST_F(CaseFile, Deletion) {
+  std::string const text =
+      std::string(minimal) +
+      "[[delete]]\nname = \"below\"\nkind = \"plane\"\npoint = [0, 0, -1]\nnormal = [0, 0, 2]\n"
+      "[[delete]]\nname = \"far\"\nkind = \"box\"\nmin = [-1, -2, -3]\nmax = [1, 2, 3]\n"
+      "[[delete]]\nname = \"trap\"\nkind = \"box\"\nside = \"inside\"\nmin = [0, 0, 0]\nmax = [1, 2, 3]\n";
+  for (Case const& c : {load(text), load(to_toml(load(text)))}) {
+    ASSERT_EQ(c.deletion.size(), 3u);
+    EXPECT_TRUE(c.deletion[0].plane && !c.deletion[1].plane && !c.deletion[2].plane);
+    EXPECT_EQ(c.deletion[0].point, (Vec3{0, 0, -1}));
+    EXPECT_EQ(c.deletion[0].normal, (Vec3{0, 0, 2}));
+    EXPECT_TRUE(!c.deletion[1].inside && c.deletion[2].inside);
+    EXPECT_EQ(c.deletion[1].min, (Vec3{-1, -2, -3}));
+    EXPECT_EQ(c.deletion[2].max, (Vec3{1, 2, 3}));
+  }
+  EXPECT_TRUE(load(minimal).deletion.empty());
+  expect_one(refused(text, {"delete.below.normal=[0, 0, 0]"}), {"delete.below.normal: must have a length"});
+  expect_one(refused(text, {"delete.far.max=[-1, 2, 3]"}), {"delete.far.max: the box is 0 x 4 x 6 m"});
+  expect_one(refused(text, {"delete.far.name=trap"}), {"'trap' is used twice"});
+  expect_one(refused(text, {"delete.far.kind=ball"}), {"delete.far.kind: 'ball' is unknown", "box, plane"});
+  expect_one(refused(text, {"delete.below.min=[0, 0, 0]"}), {"delete.below.min: is an unknown key"});
+}
+
 TEST_F(CaseFile, InsertionAtRandomAndByRate) {
   std::string const lattice = "kind = \"lattice\", box = [[0, 0, 0], [1, 1, 4]]";
   Case const random = load(with(minimal, "lattice", "random"));
