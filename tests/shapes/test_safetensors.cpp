@@ -7,7 +7,9 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <limits>
+#include <random>
 #include <stdexcept>
 
 #include "shapes/exchange/foreign_net.h"
@@ -224,6 +226,30 @@ TEST_F(Safetensors, MixedUpModelsAreRefused) {
   refused([](TensorFile& c) { c.tensor["extra"] = {{1}, {1}}; }, "its metadata tells of");
   refused([](TensorFile& c) { c.tensor["net.1.1.weight"].shape = {17, 9}; }, "the layer before gives 17");
   refused([](TensorFile& c) { c.tensor["net.1.0.bias"] = {{1}, {1}}; }, "wrong size");
+}
+
+// Whatever a flipped or lost byte makes of a file, it is read or refused, never worse (run under sanitizers too).
+TEST_F(Safetensors, DamageIsReadOrRefused) {
+  write_safetensors(file_, tensors_of(mixed_library()));
+  std::string const good = read_whole_file(file_);
+  std::uint64_t header = 0;
+  std::memcpy(&header, good.data(), 8);
+  std::mt19937_64 random(1);
+  int refused = 0;
+  for (int i = 0; i < 1500; ++i) {
+    std::string bytes = good;
+    // Two of three in the header, where the lies would be; some files also lose their end.
+    std::size_t const range = i % 3 ? 8 + header : bytes.size();
+    bytes[random() % range] = static_cast<char>(random() % 2 ? random() % 256 : '0' + random() % 10);
+    if (i % 7 == 0) bytes.resize(random() % bytes.size());
+    std::ofstream(folder_ / "damaged", std::ios::binary) << bytes;  // without the wait for the disk
+    try {
+      library_of(read_safetensors(folder_ / "damaged"));
+    } catch (std::runtime_error const&) {
+      ++refused;
+    }
+  }
+  EXPECT_GT(refused, 100);
 }
 
 TEST_F(Safetensors, FiguresAreHeldAgainstTheNetwork) {
