@@ -15,6 +15,7 @@ int main(int argc, char** argv) {
   std::function<int()> chosen;
   add_fit_command(app, chosen);
   add_coded_command(app, chosen);
+  add_encode_command(app, chosen);
   add_study_command(app, chosen);
   add_dataset_command(app, chosen);
   add_model_export(app, chosen);

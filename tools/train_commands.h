@@ -43,6 +43,7 @@ TriangleMesh read_closed_mesh(std::filesystem::path const& file, bool repair);
 // Each adds its subcommand, which sets `chosen` when it is called.
 void add_fit_command(CLI::App& app, std::function<int()>& chosen);
 void add_coded_command(CLI::App& app, std::function<int()>& chosen);
+void add_encode_command(CLI::App& app, std::function<int()>& chosen);
 void add_study_command(CLI::App& app, std::function<int()>& chosen);
 void add_dataset_command(CLI::App& app, std::function<int()>& chosen);
 

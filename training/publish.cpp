@@ -20,6 +20,8 @@ double largest_relative_error(Vec3 value, Vec3 truth) {
   return error;
 }
 
+}  // namespace
+
 void publish_shape(Library& library, int index, Body const& body, PublishOptions const& options) {
   NormaliseOptions normalise;
   normalise.cells = options.cells;
@@ -39,8 +41,6 @@ void publish_shape(Library& library, int index, Body const& body, PublishOptions
           options.seed + 7919 * (index + 1), certificate);
   certify_phi(library, shape, {options.points, options.nodes, options.threads}, certificate);
 }
-
-}  // namespace
 
 Library publish(TrainedNet const& trained, std::vector<Body> const& bodies, PublishOptions const& options) {
   if (trained.code.size() != bodies.size()) throw std::invalid_argument("publish: a code a body is needed");

@@ -26,4 +26,8 @@ struct PublishOptions {
 // no solid.
 Library publish(TrainedNet const& trained, std::vector<Body> const& bodies, PublishOptions const& options);
 
+// The same for shape `index` of a library: its query takes the body's frame to the network's, and becomes that of the
+// normalised shape. The certificate's seed, source and versions are left as they are.
+void publish_shape(Library& library, int index, Body const& body, PublishOptions const& options);
+
 }  // namespace scree

@@ -14,6 +14,7 @@
 #include "shapes/mesh_files.h"
 #include "shapes/mesh_report.h"
 #include "shapes/model_file.h"
+#include "tests/support/pebble_decoder.h"
 
 namespace scree {
 namespace {
@@ -81,6 +82,34 @@ TEST_F(TrainingPrograms, FitThenInspect) {
   changed[changed.size() / 2] = static_cast<char>(changed[changed.size() / 2] ^ 1);
   std::ofstream(folder_ / "changed.h5", std::ios::binary) << changed;
   EXPECT_EQ(run(SCREE_SHAPE, "inspect changed.h5"), 2) << said_;
+}
+
+TEST_F(TrainingPrograms, EncodeAMesh) {
+  write_model(folder_ / "pebbles.h5", test::pebble_library());
+  std::string const few = " --samples 500 --nearest 0";
+  ASSERT_EQ(run(SCREE_TRAIN, "encode pebbles.h5 closed.stl -o new.h5" + few), 0) << said_;
+  EXPECT_TRUE(says("mean of flat, turned about z")) << said_;
+  EXPECT_TRUE(says("'closed', MAE ")) << said_;
+  Library const made = read_model(folder_ / "new.h5");
+  ASSERT_EQ(made.shape.size(), 1u);
+  EXPECT_EQ(made.net.size(), 1u);
+  EXPECT_EQ(made.shape[0].code.size(), 2u);
+  EXPECT_EQ(made.shape[0].certificate.source, "mesh closed.stl, encoded by pebbles.h5");
+  EXPECT_GT(made.shape[0].certificate.mae, 0);
+  EXPECT_EQ(made.shape[0].certificate.components, 1);
+
+  EXPECT_EQ(run(SCREE_TRAIN, "encode pebbles.h5 closed.stl -o new.h5" + few), 2);
+  EXPECT_TRUE(says("--force")) << said_;
+  EXPECT_EQ(run(SCREE_TRAIN, "encode pebbles.h5 closed.stl -o both.h5 --keep --name long/9" + few), 0) << said_;
+  EXPECT_EQ(read_model(folder_ / "both.h5").shape.back().name, "long/9");
+  EXPECT_EQ(read_model(folder_ / "both.h5").shape.size(), 8u);
+  EXPECT_EQ(run(SCREE_TRAIN, "encode both.h5 closed.stl -o more.h5 --keep --name long/9" + few), 2);
+  EXPECT_TRUE(says("has a shape 'long/9' already")) << said_;
+  EXPECT_EQ(run(SCREE_TRAIN, "encode pebbles.h5 open.stl -o more.h5" + few), 2);
+  EXPECT_TRUE(says("open along 3 edges")) << said_;
+  EXPECT_EQ(run(SCREE_TRAIN, "encode closed.stl closed.stl -o more.h5" + few), 2);
+  EXPECT_TRUE(says("closed.stl")) << said_;
+  EXPECT_FALSE(fs::exists(folder_ / "more.h5"));
 }
 
 TEST_F(TrainingPrograms, BadInputGetsOneMessageAndLeavesNothing) {
