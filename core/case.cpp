@@ -106,7 +106,12 @@ void read_contact(CaseReader r, ContactCase& out) {
     rolling->number("damping", roll.damping);
     rolling->finish();
   }
-  r.unsupported({"cohesion"});
+  if (auto cohesion = r.table("cohesion")) {
+    CohesionCase& stick = out.cohesion.emplace();
+    cohesion->number("traction", stick.traction, Need::required);
+    cohesion->number("range", stick.range, Need::required);
+    cohesion->finish();
+  }
   r.finish();
 }
 

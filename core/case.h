@@ -66,6 +66,12 @@ struct RollingCase {
   double damping = 0.3;           // eta_r, share of critical
 };
 
+// Adhesive traction within a range outside the surface (kernels/contact_laws.h).
+struct CohesionCase {
+  double traction = 0;  // [Pa]
+  double range = 0;     // [m]
+};
+
 struct ContactCase {
   std::pair<std::string, std::string> pair;
   ContactLaw law = ContactLaw::winkler;
@@ -82,6 +88,7 @@ struct ContactCase {
   double youngs_modulus = 0;            // hertz [Pa]
   double poisson_ratio = 0;             // hertz
   std::optional<RollingCase> rolling;   // absent: none, no history exists
+  std::optional<CohesionCase> cohesion;
 };
 
 struct InsertCase {

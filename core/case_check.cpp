@@ -137,6 +137,10 @@ void Checker::contacts() {
     if (k.restitution)
       range(at + "damping.restitution", *k.restitution, 0, false, 1,
             "rebound speed over impact speed; above 1 energy would be made");
+    if (k.cohesion) {
+      range(at + "cohesion.traction", k.cohesion->traction, 0, true, infinity, "Pa; a negative one would repel");
+      range(at + "cohesion.range", k.cohesion->range, 0, true, infinity, "m outside the surface");
+    }
     if (k.rolling) {
       range(at + "rolling.friction", k.rolling->friction, 0, true, infinity, "a negative one would drive the rolling");
       positive(at + "rolling.stiffness_ratio", k.rolling->stiffness_ratio, "k_r / (K (mu_r R_r)^2)");

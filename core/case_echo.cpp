@@ -102,6 +102,9 @@ void write_contact(std::string& out, ContactCase const& c) {
   if (c.rolling)
     out += fmt::format("rolling = {{ friction = {}, stiffness_ratio = {}, damping = {} }}\n", c.rolling->friction,
                        c.rolling->stiffness_ratio, c.rolling->damping);
+  if (c.cohesion)
+    out += fmt::format("cohesion = {{ traction = {}, range = {} }}  # [Pa], [m]\n", c.cohesion->traction,
+                       c.cohesion->range);
   if (c.damping_ratio) out += fmt::format("damping = {{ ratio = {} }}\n", *c.damping_ratio);
   if (c.restitution) out += fmt::format("damping = {{ restitution = {} }}\n", *c.restitution);
 }

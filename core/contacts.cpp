@@ -58,7 +58,9 @@ void rebuild_pairs(Queue const& queue, Scene const& scene, SceneView const& view
   work.skin.resize(scene.bodies());
   for (int i = 0; i < scene.bodies(); ++i) work.skin[i] = skin * scene.diameter[i];
   work.box.resize(scene.bodies());
-  compute_bounds(queue, view, state.view(), work.skin, work.box);
+  std::vector<double> grown = work.skin;  // boxes reach as far as adhesion does
+  for (double& s : grown) s += scene.cohesion_margin;
+  compute_bounds(queue, view, state.view(), grown, work.box);
   find_pairs(queue, view, work.box, work.broad_phase);
   ScopedTimer const timer(queue.profile, "broad_phase/match", work.broad_phase.pair.size());
   match_old_pairs(work.pair, work.broad_phase.pair, work.old_pair);

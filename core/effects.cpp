@@ -22,6 +22,7 @@ Effects effects_of(Case const& c, Scene const& scene) {
   e.analytic_nodes = others && (any_sdf(SdfKind::analytic) || !scene.plane.empty());
   e.friction = any_contact([](ContactParameters const& p) { return p.friction > 0; });
   e.rolling = scene.rolling;
+  e.cohesion = scene.cohesion_reach > 0;
   e.damping = any_contact([](ContactParameters const& p) { return p.damping_nodes > 0; });
   e.gravity = c.gravity && norm2(*c.gravity) > 0;
   e.force = std::any_of(c.force.begin(), c.force.end(),
@@ -73,6 +74,7 @@ std::vector<std::string> names_of(Effects const& e) {
   if (e.deletion) names.push_back("deletion");
   if (e.friction) names.push_back("friction");
   if (e.rolling) names.push_back("rolling resistance");
+  if (e.cohesion) names.push_back("cohesion");
   if (e.damping) names.push_back("damping");
   if (e.settle) names.push_back("settle");
   return names;

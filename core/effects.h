@@ -21,6 +21,7 @@ struct Effects {
   bool analytic_nodes = false;   // nodes meet planes or analytic shapes
   bool friction = false;
   bool rolling = false;  // rolling resistance
+  bool cohesion = false;
   bool damping = false;
   bool gravity = false;
   bool force = false;  // applied forces or torques

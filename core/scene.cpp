@@ -30,6 +30,8 @@ SceneView Scene::view() const {
   v.contact = contact;
   v.materials = static_cast<int>(material.size());
   v.friction = friction;
+  v.cohesion_reach = cohesion_reach;
+  v.cohesion_margin = cohesion_margin;
   return v;
 }
 
@@ -70,6 +72,8 @@ ContactParameters parameters_of(ContactCase const& contact, double largest_diame
   p.normal = normal_law(contact, largest_diameter);
   p.tangential = contact.tangential_ratio;
   p.friction = contact.friction.value_or(0);
+  if (contact.cohesion && contact.cohesion->traction > 0 && contact.cohesion->range > 0)
+    p.cohesion = {contact.cohesion->traction, contact.cohesion->range};
   if (contact.rolling) {
     p.rolling = contact.rolling->friction;
     p.rolling_ratio = contact.rolling->stiffness_ratio;
@@ -117,7 +121,10 @@ void build_contacts(Case const& c, Scene& scene, std::vector<std::string>& found
   for (ContactParameters const& p : scene.contact) {
     scene.friction = scene.friction || p.friction > 0;
     scene.rolling = scene.rolling || p.rolling > 0;
+    scene.cohesion_reach = std::max(scene.cohesion_reach, p.cohesion.reach());
   }
+  // Of shapes that the gate lets pass, |grad phi| is not far below limits.gradient's lower end.
+  scene.cohesion_margin = scene.cohesion_reach / std::min(1.0, c.limits.gradient_low);
 }
 
 void build_planes(Case const& c, Scene& scene) {

@@ -56,8 +56,9 @@ struct Scene {
 
   std::vector<std::string> material;
   std::vector<PlaneRecord> plane;
-  std::vector<ContactParameters> contact;  // [a * materials + b]
-  bool friction = false, rolling = false;  // some pair has it: history exists
+  std::vector<ContactParameters> contact;          // [a * materials + b]
+  bool friction = false, rolling = false;          // some pair has it: history exists
+  double cohesion_reach = 0, cohesion_margin = 0;  // see SceneView
 
   std::vector<std::string> notes;  // what the user should know about the making of the scene
 

@@ -35,6 +35,8 @@ std::string law_of(Simulation::Impl const& s, int a, int b) {
   std::string text = fmt::format("{} - {}: {}, k_t/k_n {:.3g}", s.scene.material[a], s.scene.material[b],
                                  normal_law_in_words(p.normal), p.tangential);
   if (p.friction > 0) text += fmt::format(", friction {:.3g}", p.friction);
+  if (p.cohesion.traction > 0)
+    text += fmt::format(", cohesion {:.4g} Pa within {:.3g} m", p.cohesion.traction, p.cohesion.range);
   if (p.rolling > 0)
     text += fmt::format(", rolling friction {:.3g}, stiffness ratio {:.3g}, damping {:.3g}", p.rolling, p.rolling_ratio,
                         p.rolling_damping);

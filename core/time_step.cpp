@@ -121,9 +121,13 @@ StepEstimate estimate_critical_step(Case const& c, Scene const& scene, Placement
       double const radius = d / 2;  // round impact on a plane
       SphereLaw const law{law_at_radius(p.normal, radius), radius};
       double const steepest = law.law.slope(0);
-      double const overlap = std::max(impact_overlap(law, m, speed2), 1e-3 * d);
-      double const stiffness = std::max(law.stiffness(overlap), steepest * flat_face(shape) * d * d) *
-                               std::max(1.0, p.tangential * law.tangential(overlap) / law.stiffness(overlap));
+      double const adhesive = 2 * pi * radius * p.cohesion.traction;  // |K| of a closed form [N/m]
+      // Adhesion speeds grains up on their last way, by 2 pi R traction range^2 / 2 at most.
+      double const impact2 = speed2 + 2 * adhesive * p.cohesion.reach() * p.cohesion.reach() / m;
+      double const overlap = std::max(impact_overlap(law, m, impact2), 1e-3 * d);
+      double const stiffness =
+          adhesive + std::max(law.stiffness(overlap), steepest * flat_face(shape) * d * d) *
+                         std::max(1.0, p.tangential * law.tangential(overlap) / law.stiffness(overlap));
       double const least = std::min({inertia.x, inertia.y, inertia.z});
       double const turning = p.rolling_ratio * stiffness * p.rolling * p.rolling * radius * radius;
       double const omega2 = 2 * (stiffness * (1 / m + radius * radius / least) + turning / least);  // both bodies
@@ -137,8 +141,12 @@ StepEstimate estimate_critical_step(Case const& c, Scene const& scene, Placement
       double const entry_error = zeta > 0 ? entry_error_dissipative : entry_error_conservative;
       if (scene.shape[scene.shape_of[i]].closed_form_sphere && law.law.kind != ContactLaw::winkler)
         out.accurate = std::min(out.accurate, entry_step(law, m, out.speed, entry_error));
+      double const ramp = p.cohesion.traction > 0 ? p.cohesion.traction / p.cohesion.ramp() : 0;
+      if (ramp > 0)  // a sphere should not cross the edge of the adhesion within a step
+        out.accurate =
+            std::min(out.accurate, std::sqrt(4 * entry_error * m * p.cohesion.ramp() / (adhesive * p.cohesion.range)));
       if (spacing > 0)
-        out.accurate = std::min(out.accurate, std::sqrt(entry_error * m / (steepest * spacing * spacing)));
+        out.accurate = std::min(out.accurate, std::sqrt(entry_error * m / ((steepest + ramp) * spacing * spacing)));
     }
   }
   return out;

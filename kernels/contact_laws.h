@@ -107,6 +107,37 @@ struct SphereLaw {
   SCREE_HD double tangential(double overlap) const { return 2 * pi * radius * law.secant() * overlap; }
 };
 
+// Adhesive traction, constant up to a range outside the surface: p = -traction for phi > -range, psi(0) = -traction x
+// range. The edge is a straight ramp from 1.1 to 0.9 of the range: a step of p would put an error into the energy at
+// every node that passes it. Smooth surfaces: F = 2 pi R psi, so a contact that its law cannot deform pulls off at 2 pi
+// R traction range.
+struct Cohesion {
+  static constexpr double half_ramp = 0.1;  // of the range
+  double traction = 0;                      // [Pa]; 0: none
+  double range = 0;                         // [m]
+
+  SCREE_HD double reach() const { return (1 + half_ramp) * range; }  // [m]
+  SCREE_HD double ramp() const { return 2 * half_ramp * range; }     // [m]
+  SCREE_HD double pressure(double phi) const {                       // [Pa], negative
+    double const u = phi + reach();
+    return u > 0 ? (u < ramp() ? -traction * (u / ramp()) : -traction) : 0;
+  }
+  SCREE_HD double slope(double phi) const {  // |dp/dphi| [N/m3]
+    double const u = phi + reach();
+    return u > 0 && u < ramp() ? traction / ramp() : 0;
+  }
+  SCREE_HD double energy(double phi) const {  // psi [J/m2]
+    double const u = phi + reach();
+    if (!(u > 0)) return 0;
+    return u < ramp() ? -0.5 * traction * u * (u / ramp()) : -traction * (phi + range);
+  }
+  SCREE_HD double energy_integral(double phi) const {  // of psi from outside the reach to phi [J/m]
+    double const u = phi + reach(), w = ramp();
+    if (!(u > 0)) return 0;
+    return u < w ? -traction * u * u * (u / w) / 6 : -traction * (0.5 * u * (u - w) + w * w / 6);
+  }
+};
+
 // kappa of a material whose secant stiffness F/overlap is `stiffness` [N/m] at `overlap` [m] between equal spheres of
 // diameter d: F = pi R kappa overlap^2 with R = d/4.
 inline double winkler_modulus(double stiffness, double diameter, double overlap) {

@@ -71,7 +71,9 @@ struct ReducePair {
     double stiffness = 0, tangential = 0;  // K and K_t [N/m]
     double damping = 0;                    // of the weights that share out the damping
     double area = 0, depth = 0;            // of the active nodes [m^2], and times their phi [m^3]
-    double force = 0;                      // sum of |node forces| [N]
+    double force = 0;                      // sum of |node forces|, adhesive ones counted [N]
+    double pressing = 0;                   // ... without those [N]
+    double adhesive = 0;                   // sum of |K| of the adhesion [N/m]
     Vec3 point;                            // force-weighted [m]
   };
 
@@ -80,10 +82,23 @@ struct ReducePair {
     double const secant = law.secant();
     for (int i = active_first[side]; i < active_first[side + 1]; ++i) {
       Sample const s = sample(p, which, share, i);
-      double const pressure = law.pressure(s.phi), slope = law.slope(s.phi), steep = norm(s.gradient);
+      double const steep = norm(s.gradient);
+      ++out.active;
+      double adhesion = 0;
+      if (parameters.cohesion.traction > 0) {
+        adhesion = parameters.cohesion.pressure(s.phi);
+        sums.adhesive += s.weight * parameters.cohesion.slope(s.phi) * steep * steep;
+        sums.force -= s.weight * adhesion * steep;
+        sums.point -= s.x * (s.weight * adhesion * steep);
+        out.energy_normal += s.weight * parameters.cohesion.energy(s.phi);
+        add(out.elastic, s.gradient * (s.sign * s.weight * adhesion), s.x, state.position[p.a], centre_b);
+        if (!(s.phi > 0)) continue;
+      }
+      double const pressure = law.pressure(s.phi), slope = law.slope(s.phi);
       add(out.elastic, s.gradient * (s.sign * s.weight * pressure), s.x, state.position[p.a], centre_b);
       double const force = s.weight * pressure * steep;
       sums.force += force;
+      sums.pressing += force;
       sums.point += s.x * force;
       sums.stiffness += s.weight * slope * steep * steep;
       sums.damping += s.weight * law.damping_weight(s.phi) * steep * steep;
@@ -92,7 +107,6 @@ struct ReducePair {
       sums.depth += s.weight * s.phi;
       out.energy_normal += s.weight * law.energy(s.phi);
       out.overlap = s.phi > out.overlap ? s.phi : out.overlap;
-      ++out.active;
     }
   }
 
@@ -111,6 +125,8 @@ struct ReducePair {
     int cursor = friction ? history_first[side] : 0;
     for (int i = active_first[side]; i < active_first[side + 1]; ++i) {
       Sample const s = sample(p, which, share, i);
+      if (!next_xi.empty()) next_xi[i] = {};
+      if (!(s.phi > 0)) continue;  // adhesion does not damp, and friction lives on the pressure of the law
       double const pressure = law.pressure(s.phi), steep = norm(s.gradient);
       Vec3 const v =
           point_velocity(state, kinematics, s.carrier, s.x) - point_velocity(state, kinematics, s.partner, s.x);
@@ -119,7 +135,6 @@ struct ReducePair {
       pressing += s.gradient * (s.sign * s.weight * total);
       if (beta > 0)
         add(out.damping, s.gradient * (s.sign * s.weight * (total - pressure)), s.x, state.position[p.a], centre_b);
-      if (!next_xi.empty()) next_xi[i] = {};
       if (!friction || !(steep > 0)) continue;
       Vec3 const n = s.gradient / steep;
       double const kappa_t = secant * parameters.tangential;
@@ -158,11 +173,11 @@ struct ReducePair {
     double const mass = 1 / inverse_effective_mass(scene, state, kinematics, p, x, n);
     double const zeta = parameters.damping_nodes;
     double beta = sums.stiffness > 0 ? 2 * zeta * std::sqrt(mass / sums.stiffness) : 0;
-    if (law.kind == ContactLaw::linear) {
+    if (law.kind == ContactLaw::linear && sums.area > 0) {
       // p' of a few nodes in the onset is no measure of K: that of the smooth contact with this force and this mean
       // depth, half its overlap, is.
       double const depth = 2 * sums.depth / sums.area;
-      double const smooth = sums.force * law.pressure(depth) / law.energy(depth);
+      double const smooth = sums.pressing * law.pressure(depth) / law.energy(depth);
       beta = sums.damping > 0 ? 2 * zeta * std::sqrt(mass * smooth) / sums.damping : 0;
       sums.stiffness = smooth > sums.stiffness ? smooth : sums.stiffness;  // for the critical step: nodes may move on
     }
@@ -172,6 +187,7 @@ struct ReducePair {
       if (sides[which] >= 0)
         dissipative_pass(p, which, share, sides[which], law, parameters, beta, beta_t, centre_b, pressing, out);
     out.stiffness = sums.stiffness > sums.tangential ? sums.stiffness : sums.tangential;
+    out.stiffness += sums.adhesive;
     out.damping_ratio = zeta;
     out.arm2_a = norm2(x - state.position[p.a]);
     out.arm2_b = p.with_plane() ? 0 : norm2(x - centre_b);

@@ -70,8 +70,9 @@ struct NextDue {
 
   SCREE_HD void operator()(int s) const {
     int n = 0;
+    double const outside = -adhesive_reach(scene, side[s]) / partner_unit(scene, side[s]);
     for (int i = due_first[s]; i < due_first[s + 1]; ++i) {
-      n += phi[i] > 0;
+      n += phi[i] > outside;
       double const way = way_to_contact(scene, side[s], phi[i]);
       due[entry[i]] = brute_force || way <= 0 ? 0 : travelled[s] + way;
     }
@@ -80,6 +81,8 @@ struct NextDue {
 };
 
 struct FillActive {
+  SceneView scene;
+  Span<const Side> side;
   Span<const int> due_first, entry, listed_node;
   Span<const double> phi;
   Span<const Vec3> due_point;
@@ -91,8 +94,9 @@ struct FillActive {
 
   SCREE_HD void operator()(int s) const {
     int out = first[s];
+    double const outside = -adhesive_reach(scene, side[s]) / partner_unit(scene, side[s]);
     for (int i = due_first[s]; i < due_first[s + 1]; ++i) {
-      if (!(phi[i] > 0)) continue;
+      if (!(phi[i] > outside)) continue;
       node[out] = listed_node[entry[i]];
       point[out] = due_point[i];
       partner[out] = due_partner[i];
@@ -194,10 +198,11 @@ void find_active_nodes(Queue const& queue, SceneView const& scene, StateView con
   active.sample.resize(n);
   active.sample.gradient.resize(n);
   groups_of_items(lists.group, active.first, active.sample.group);
-  parallel_for(queue, "node_gather/compact", sides,
-               FillActive{active.due_first, active.due_entry, lists.node, active.due.phi, active.due.point,
-                          active.due.partner, active.first, active.node, active.sample.point, active.sample.partner},
-               512);
+  parallel_for(
+      queue, "node_gather/compact", sides,
+      FillActive{scene, lists.side, active.due_first, active.due_entry, lists.node, active.due.phi, active.due.point,
+                 active.due.partner, active.first, active.node, active.sample.point, active.sample.partner},
+      512);
   evaluate_phi_gradient(queue, scene, networks, active.sample);
 }
 

@@ -69,12 +69,23 @@ SCREE_HD inline double partner_unit(SceneView const& scene, Side const& side) {
   return side.partner < 0 ? 1 : scene.diameter[side.partner];
 }
 
-// Way [m] a side may travel before a node with this phi < 0 can be inside; 0 or less: it may be inside now.
+// How far outside its partner a node of the side still carries force [m], as phi measures it: 0 without cohesion.
+SCREE_HD inline double adhesive_reach(SceneView const& scene, Side const& side) {
+  if (!(scene.cohesion_reach > 0)) return 0;
+  int const other = side.partner < 0 ? scene.plane[-1 - side.partner].material : scene.material_of[side.partner];
+  return scene.contact[scene.material_of[side.carrier] * scene.materials + other].cohesion.reach();
+}
+
+// Way [m] a side may travel before a node with this phi < 0 can carry force; 0 or less: it may now.
 SCREE_HD inline double way_to_contact(SceneView const& scene, Side const& side, double phi) {
-  if (side.partner < 0) return -phi;
+  double const reach = adhesive_reach(scene, side);
+  if (side.partner < 0) return -phi - reach;
   ShapeRecord const& partner = scene.shape_record(side.partner);
   double const float_error = partner.net < 0 ? 0 : 2e-5;  // of two network queries [d], see sdf_batch.h
-  return (-phi - float_error) * scene.diameter[side.partner] / partner.lipschitz;
+  double const way = (-phi - float_error) * scene.diameter[side.partner];
+  if (!(reach > 0)) return way / partner.lipschitz;
+  // Beyond the ball phi goes on with slope 1 along the ray, see sdf_queries.h.
+  return (way - reach) / std::sqrt(partner.lipschitz * partner.lipschitz + 1);
 }
 
 // Sides for a new pair list. `old_pair[k]` is the index pair k had before, or -1; lists of surviving sides are kept.
@@ -91,11 +102,11 @@ struct GatherOptions {
 void update_node_lists(Queue const& queue, SceneView const& scene, StateView const& state, KinematicsView kinematics,
                        NetworkSet const& networks, GatherOptions const& options, NodeGather& gather);
 
-// Nodes inside their partner at this step, grouped as the sides are.
+// Nodes inside their partner (with cohesion: or within its reach) at this step, grouped as the sides are.
 struct ActiveNodes {
   std::vector<int> first;    // (n_sides + 1)
   std::vector<int> node;     // relative to the shape's first node, ascending within a side
-  QueryBatch sample;         // point, phi > 0 and gradient of each
+  QueryBatch sample;         // point, phi and gradient of each
   std::int64_t queries = 0;  // listed nodes evaluated since the start
   // Scratch: the listed nodes that are due.
   QueryBatch due;

@@ -139,7 +139,8 @@ struct CandidateBlocks {
       ToPartner const to_partner(scene, state, kinematics, side[s]);
       for (int b = 0; b < shape.blocks; ++b) {
         Vec3 const y = to_partner(block_centre(scene.nodes, shape, b));
-        double const apart = outside_distance(scene, side[s], y) * unit - block_radius(scene.nodes, shape, b) * d;
+        double const apart = outside_distance(scene, side[s], y) * unit - block_radius(scene.nodes, shape, b) * d -
+                             scene.cohesion_margin;
         if (!brute_force && apart > skin[s]) {
           lower(least_gap, apart);
           continue;
@@ -169,6 +170,7 @@ struct CandidateBlocks {
                            scene.shape_record(of.partner).bounding_radius * scene.diameter[of.partner];
       if (other > far) far = other;
     }
+    far -= scene.cohesion_margin;
     if (!(far > skin[s])) return false;
     apart = far;
     return true;
@@ -211,7 +213,7 @@ struct CandidateNodes {
       for (int k = range.begin; k < range.end; ++k) {
         Vec3 const y = to_partner(node_position(scene.nodes, shape, k));
         double const by_phi = from_centre - norm(y - block_point[i]) * unit;
-        double const by_shape = outside_distance(scene, side[s], y) * unit;
+        double const by_shape = outside_distance(scene, side[s], y) * unit - scene.cohesion_margin;
         double const apart = by_phi > by_shape ? by_phi : by_shape;
         if (!brute_force && apart > skin[s]) {
           lower(least_gap, apart);

@@ -8,6 +8,12 @@
 namespace scree {
 namespace {
 
+// The point of the ball on the same ray, or the point itself inside.
+SCREE_HD Vec3 point_in_ball(Vec3 x, double radius) {
+  double const r2 = norm2(x);
+  return r2 > radius * radius ? x * (radius / std::sqrt(r2)) : x;
+}
+
 struct ToNetworkFrame {
   SceneView scene;
   Span<const Vec3> point;
@@ -18,11 +24,20 @@ struct ToNetworkFrame {
   SCREE_HD void operator()(int i) const {
     ShapeRecord const& shape = scene.shape_record(partner[i]);
     // A point beyond the ball is answered without the network; the ball's centre keeps the evaluator's input tame.
-    Vec3 const x = norm2(point[i]) <= shape.bounding_radius * shape.bounding_radius ? point[i] : Vec3{};
+    Vec3 x = norm2(point[i]) <= shape.bounding_radius * shape.bounding_radius ? point[i] : Vec3{};
+    if (scene.cohesion_reach > 0) x = point_in_ball(point[i], shape.bounding_radius);
     net_point[i] = to_float(shape.query_rotation * (x * shape.query_scale) + shape.query_shift);
     net_row[i] = shape.bias_row;
   }
 };
+
+// Continues phi beyond the ball, from its value and gradient at the point on the ball.
+SCREE_HD void continue_outside(Vec3 x, double radius, double& phi, Vec3* gradient) {
+  double const r = norm(x);
+  Vec3 const along = x / r;
+  phi += phi_outside_ball(r, radius);
+  if (gradient) *gradient = (*gradient - along * dot(along, *gradient)) * (radius / r) - along;
+}
 
 struct FromNetwork {
   SceneView scene;
@@ -39,6 +54,9 @@ struct FromNetwork {
     bool const outside = r2 > shape.bounding_radius * shape.bounding_radius;
     phi[i] = outside ? phi_outside_ball(std::sqrt(r2), shape.bounding_radius) : net_phi[i] / shape.query_scale;
     if (!net_gradient.empty()) gradient[i] = transposed_times(shape.query_rotation, to_double(net_gradient[i]));
+    if (!(outside && scene.cohesion_reach > 0)) return;
+    phi[i] = net_phi[i] / shape.query_scale;
+    continue_outside(point[i], shape.bounding_radius, phi[i], net_gradient.empty() ? nullptr : &gradient[i]);
   }
 };
 
@@ -99,7 +117,10 @@ struct EvaluateInBall {
     ShapeRecord const& shape = scene.shape_record(partner[i]);
     Vec3* const g = gradient.empty() ? nullptr : &gradient[i];
     double const r2 = norm2(point[i]);
-    if (r2 > shape.bounding_radius * shape.bounding_radius) {
+    if (r2 > shape.bounding_radius * shape.bounding_radius && scene.cohesion_reach > 0) {
+      phi[i] = PhiOf()(scene, shape, point_in_ball(point[i], shape.bounding_radius), g);
+      continue_outside(point[i], shape.bounding_radius, phi[i], g);
+    } else if (r2 > shape.bounding_radius * shape.bounding_radius) {
       phi[i] = phi_outside_ball(std::sqrt(r2), shape.bounding_radius);
       if (g) *g = point[i] * (-1 / std::sqrt(r2));
     } else {

@@ -49,7 +49,8 @@ struct QueryBatch {
 void evaluate_phi(Queue const& queue, SceneView const& scene, NetworkSet const& networks, QueryBatch& batch);
 void evaluate_phi_gradient(Queue const& queue, SceneView const& scene, NetworkSet const& networks, QueryBatch& batch);
 
-// phi from outside the bounding sphere: a bound, not a distance.
+// phi from outside the bounding sphere: a bound, not a distance. With cohesion, which pulls on nodes outside, it has to
+// be continuous: then it is phi on the sphere at the same ray, less the distance to the sphere.
 SCREE_HD inline double phi_outside_ball(double distance_to_centre, double radius) {
   return radius - distance_to_centre;
 }

@@ -50,14 +50,28 @@ struct SpherePair {
       effective = ra * rb / (ra + rb);
       reach_b = rb - 0.5 * overlap;
     }
-    if (!(overlap > 0)) {
+    ContactParameters const& parameters = contact_parameters(scene, p);
+    if (!(overlap > 0) && !(parameters.cohesion.traction > 0 && overlap > -parameters.cohesion.reach())) {
       result[k] = out;
       return;
     }
-    ContactParameters const& parameters = contact_parameters(scene, p);
     SphereLaw const law{law_at_radius(parameters.normal, effective), effective};
     // The contact point lies half way into the overlap; on a plane, on the plane.
     Vec3 const x = p.with_plane() ? xa - n * (ra - overlap) : state.position[p.b] + n * reach_b;
+    double adhesive_stiffness = 0;
+    if (parameters.cohesion.traction > 0) {
+      double const girth = 2 * SphereLaw::pi * effective;
+      out.elastic.force_on_a = n * (girth * parameters.cohesion.energy(overlap));
+      out.energy_normal = girth * parameters.cohesion.energy_integral(overlap);
+      out.active = 1;
+      out.stiffness = adhesive_stiffness = -girth * parameters.cohesion.pressure(overlap);
+      if (!(overlap > 0)) {  // adhesion does not damp, and friction lives on the force of the law
+        out.arm2_a = norm2(x - xa);
+        out.arm2_b = p.with_plane() ? 0 : norm2(x - state.position[p.b]);
+        result[k] = out;
+        return;
+      }
+    }
     double const mass = 1 / inverse_effective_mass(scene, state, kinematics, p, x, n);
     double const stiffness = law.stiffness(overlap), force = law.force(overlap);
     Vec3 const v =
@@ -65,9 +79,9 @@ struct SpherePair {
     double total = force - 2 * parameters.damping_sphere * std::sqrt(mass * stiffness) * dot(n, v);
     total = total > 0 ? total : 0;
     Vec3 const arm_a = x - xa, arm_b = p.with_plane() ? Vec3{} : x - state.position[p.b];
-    out.elastic.force_on_a = n * force;
+    out.elastic.force_on_a += n * force;
     out.damping.force_on_a = n * (total - force);
-    out.energy_normal = law.energy(overlap);
+    out.energy_normal += law.energy(overlap);
     out.overlap = overlap;
     out.active = 1;
     out.damping_ratio = parameters.damping_sphere;
@@ -91,6 +105,7 @@ struct SpherePair {
     }
     if (rolling.on())
       resist_rolling(scene, kinematics, rolling, p, k, options.time_step, n, total, stiffness, out.arm2_a, out.arm2_b);
+    out.stiffness += adhesive_stiffness;
     result[k] = out;
   }
 };

@@ -64,6 +64,7 @@ struct ContactParameters {
   double friction = 0;         // mu [-]; 0: none
   double damping_nodes = 0;    // zeta of node contacts [-]; 0: none
   double damping_sphere = 0;   // zeta of closed-form spheres, whose force clips once a pair [-]
+  Cohesion cohesion;           // traction 0: none
   double rolling = 0;          // mu_r [-]; 0: no rolling resistance
   double rolling_ratio = 0;    // k_r / (K (mu_r R_r)^2) [-]
   double rolling_damping = 0;  // eta_r, share of critical [-]
@@ -82,6 +83,9 @@ struct SceneView {
   Span<const ContactParameters> contact;  // [material_a * materials + material_b]
   int materials = 0;
   bool friction = false;  // some pair has friction: history exists
+  // Cohesion of any pair: 0 without it. Outside a surface nothing else looks at phi beyond its sign.
+  double cohesion_reach = 0;   // largest [m], as phi measures it
+  double cohesion_margin = 0;  // ... as the world does: |grad phi| of a shape may be below 1
 
   SCREE_HD int bodies() const { return shape_of.size(); }
   SCREE_HD ShapeRecord const& shape_record(int body) const { return shape[shape_of[body]]; }

@@ -292,6 +292,17 @@ TEST_F(CaseFile, RollingResistanceHasItsRanges) {
   expect_one(refused(rolling("friction = 0.1, stiffness_ratio = 0")), {"rolling.stiffness_ratio: 0", "must be > 0"});
 }
 
+TEST_F(CaseFile, CohesionHasItsRanges) {
+  auto const cohesion = [&](std::string const& keys) {
+    return with(minimal, "friction = 0.5", "friction = 0.5\ncohesion = { " + keys + " }");
+  };
+  CohesionCase const given = *load(cohesion("traction = 1e4, range = 1e-4")).contact.at(0).cohesion;
+  EXPECT_EQ(std::tie(given.traction, given.range), std::make_tuple(1e4, 1e-4));
+  expect_one(refused(cohesion("traction = 1e4")), {"cohesion.range: is missing"});
+  expect_one(refused(cohesion("traction = 1e4, range = -1e-4")), {"cohesion.range: -0.0001", "must be >= 0"});
+  expect_one(refused(cohesion("traction = -1, range = 1e-4")), {"cohesion.traction: -1", "must be >= 0", "repel"});
+}
+
 TEST_F(CaseFile, InsertionThatCannotFitIsRefused) {
   // floor(1/0.1) = 10 cells a side (as floating point has it), 40 layers: 4,000 places.
   expect_one(refused(with(minimal, "count = 5", "count = 5000")), {"grains.mix.insert.box", "not 5000"});
@@ -520,6 +531,7 @@ Case unusual_case(fs::path const& library) {
   c.contact[3] = {{"rock", "wood"}, ContactLaw::linear, {}, 3e5, 0.02, 0.75, 0.4, 0.6, {}, 3e-3};
   c.contact[3].rolling = RollingCase{0.2, 1.5, 0.25};
   c.contact[4] = {{"wood", "wood"}, ContactLaw::hertz, {}, 2e6, 0.03, 0.5, {}, {}, 0.5, 1e-3, 7.1e10, -0.25};
+  c.contact[4].cohesion = CohesionCase{1.5e4, 2e-4};
   c.grains.resize(5);
   c.grains[0] = {"mix", "rock", {"grains:ballast/*", "sphere"}, Evaluator::analytic, 123, 4, 0.05, {}};
   c.grains[0].insert = {InsertCase::Kind::lattice,
@@ -593,6 +605,9 @@ void expect_same(ContactCase const& a, ContactCase const& b) {
   if (a.rolling)
     EXPECT_EQ(std::tie(a.rolling->friction, a.rolling->stiffness_ratio, a.rolling->damping),
               std::tie(b.rolling->friction, b.rolling->stiffness_ratio, b.rolling->damping));
+  ASSERT_EQ(a.cohesion.has_value(), b.cohesion.has_value());
+  if (a.cohesion)
+    EXPECT_EQ(std::tie(a.cohesion->traction, a.cohesion->range), std::tie(b.cohesion->traction, b.cohesion->range));
   EXPECT_EQ(std::tie(a.youngs_modulus, a.poisson_ratio), std::tie(b.youngs_modulus, b.poisson_ratio));
 }
 

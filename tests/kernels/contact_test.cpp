@@ -75,6 +75,22 @@ TEST(ContactLaws, EveryFunctionIsTheDerivativeOfTheNextAndContinuousAtTheOnset) 
   }
 }
 
+TEST(Cohesion, EveryFunctionIsTheDerivativeOfTheNextAndVanishesBeyondTheReach) {
+  Cohesion const stick{1e4, 1e-4};
+  for (double x : {-1.05e-4, -0.95e-4, -0.5e-4, 0.5e-4}) {
+    double const h = 1e-9;
+    auto const rate = [&](auto f) { return (f(x + h) - f(x - h)) / (2 * h); };
+    EXPECT_NEAR(rate([&](double y) { return stick.energy_integral(y); }) / stick.energy(x), 1, 1e-6);
+    EXPECT_NEAR(rate([&](double y) { return stick.energy(y); }) / stick.pressure(x), 1, 1e-6);
+    EXPECT_NEAR(rate([&](double y) { return stick.pressure(y); }), -stick.slope(x),
+                1e-6 * stick.traction / stick.ramp());
+  }
+  EXPECT_NEAR(stick.energy(0), -stick.traction * stick.range, 1e-12);
+  EXPECT_EQ(stick.pressure(-1.1001e-4), 0);
+  EXPECT_EQ(stick.energy_integral(-1.1001e-4), 0);
+  EXPECT_EQ(Cohesion{}.energy(1e-3), 0);
+}
+
 TEST(ContactLaws, ParametersMeanWhatTheirNamesSay) {
   double const d = 0.1, k = 2e6, e = 1e9, nu = 0.25, deep = 1e-3;
   // Equal spheres: slope k_n beyond the onset; Hertz's F = 4/3 E* sqrt(R) x^(3/2) with E* = E / (2 (1 - nu^2)).
