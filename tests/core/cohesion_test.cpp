@@ -133,9 +133,10 @@ TEST(Cohesion, NodeListsGiveTheContactSetsOfBruteForce) {
   expect_same_contact_sets(lists, brute, 500);
   c.library = {{"grains", std::filesystem::path(SCREE_SOURCE_DIR) / "shapes/library/grains.h5"}};
   c.grains[0].shapes = {"grains:ballast/0", "grains:sand/4", "grains:cobble/1", "grains:ellipsoid/3"};
-  c.grains[0].nodes = 100;
+  c.grains[0].nodes = 64;
+  c.time.end = 0.02;
   Simulation nets(c, {.threads = 2}), all(c, {.threads = 2, .brute_force = true});
-  expect_same_contact_sets(nets, all, 200);
+  expect_same_contact_sets(nets, all, 100);
   EXPECT_LT(std::abs(nets.ledger().residual), 1e-3 * nets.ledger().moved);
 }
 
@@ -154,7 +155,7 @@ TEST(Cohesion, OffIsAbsent) {
     EXPECT_EQ(s.plan().stages, none->plan().stages);
     EXPECT_EQ(s.plan().effects, none->plan().effects);
     EXPECT_EQ(s.plan().law, none->plan().law);
-    EXPECT_EQ(s.impl().work.active.queries, none->impl().work.active.queries);
+    EXPECT_EQ(launches(s), launches(*none));
   }
   EXPECT_NE(s.frame().position, o.frame().position);
   std::vector<std::string> const effects = o.plan().effects;

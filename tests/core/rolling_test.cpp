@@ -7,6 +7,7 @@
 
 #include "core/simulation_impl.h"
 #include "tests/support/cases.h"
+#include "tests/support/contact_sets.h"
 
 namespace scree {
 namespace {
@@ -155,6 +156,7 @@ TEST(Rolling, OffIsAbsent) {
     for (Simulation* each : {&s, &z, &o}) run(*each);
     EXPECT_EQ(s.frame().position, z.frame().position);
     EXPECT_EQ(s.frame().orientation, z.frame().orientation);
+    EXPECT_EQ(launches(s), launches(z));
     EXPECT_NE(s.frame().position, o.frame().position);
     Plan const a = s.plan(), b = z.plan(), with = o.plan();
     EXPECT_EQ(a.stages, b.stages);

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
+#include <string>
 #include <tuple>
 #include <vector>
 
@@ -13,6 +15,13 @@
 #include "core/simulation_impl.h"
 
 namespace scree::testing {
+
+// (name, calls, items) of every launch so far.
+inline std::vector<std::tuple<std::string, std::int64_t, std::int64_t>> launches(Simulation const& s) {
+  std::vector<std::tuple<std::string, std::int64_t, std::int64_t>> out;
+  for (Profile::Entry const& e : s.profile().entries()) out.push_back({e.name, e.calls, e.items});
+  return out;
+}
 
 // (carrier, partner, node) of every node in contact, sorted.
 inline std::vector<std::tuple<int, int, int>> active_nodes(Simulation& s) {
