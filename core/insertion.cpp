@@ -91,11 +91,13 @@ void insert_due(Queue const& queue, Case const& c, Scene const& scene, State& st
     SphereGrid grid = occupied(scene, state, box, own);
     while (in.done < due) {
       int const body = first + in.done;
-      double const radius = bounding_radius(scene, body);
+      double const own_radius = bounding_radius(scene, body);
+      // Out of the reach of cohesion, too: a bond from nothing would be energy from nowhere.
+      double const radius = own_radius + scene.cohesion_margin;
       std::optional<Vec3> const spot = find_free_spot(box, radius, grid, scene.plane, tries_per_step, in.random);
       if (!spot) break;
       activate(c, scene, body, *spot, state);
-      grid.add(*spot, radius);
+      grid.add(*spot, own_radius);
       work.built_position.clear();
       ++in.done;
     }

@@ -88,6 +88,20 @@ TEST(RandomInsertion, BoundingSpheresMeetNothing) {
   EXPECT_EQ(Simulation(c, {}).results_header().ledger, (std::vector<std::string>{}));
 }
 
+// Grains that stick within a range start and enter beyond it: no bond comes from nothing.
+TEST(RandomInsertion, PlacesAreOutOfTheReachOfCohesion) {
+  Case c = rock_case();
+  c.contact[0].cohesion = CohesionCase{1e4, 0.002};  // [Pa], [m]
+  c.grains = {grains_in({{0, 0, 0}, {0.45, 0.45, 0.45}}, 15, Kind::random)};
+  Simulation s(c, {});
+  EXPECT_EQ(s.ledger().elastic_normal, 0);
+  Frame const f = s.frame();
+  double nearest = 1;
+  for (int i = 0; i < 15; ++i)
+    for (int j = 0; j < i; ++j) nearest = std::min(nearest, norm(f.position[i] - f.position[j]));
+  EXPECT_GE(nearest, 0.1 + 0.002);
+}
+
 TEST(RandomInsertion, WhatFindsNoPlaceIsRefusedWithTheReason) {
   Case c = rock_case();
   c.grains = {grains_in({{0, 0, 0}, {0.3, 0.3, 0.3}}, 27, Kind::random)};  // a lattice fills it: 52 % by volume
@@ -202,6 +216,20 @@ TEST(RateInsertion, TheSameBitsForAnyThreadsAndFromACopyOfTheState) {
   EXPECT_EQ(a.frame().position, b.frame().position);
   EXPECT_EQ(a.frame().position, copy.frame().position);
   EXPECT_EQ(a.ledger().residual, copy.ledger().residual);
+}
+
+// A run that starts from a frame goes on with the bodies that frame calls active, and inserts the others.
+TEST(RateInsertion, StartsFromAFrame) {
+  Case c = falling_in(12, 60);
+  Simulation a(c, {});
+  while (active(a.frame()) < 5) a.step();
+  Frame const frame = a.frame();
+  Simulation b(c, {}, frame);
+  EXPECT_EQ(b.frame().activity, frame.activity);
+  EXPECT_EQ(b.frame().position, frame.position);
+  run(b);
+  EXPECT_EQ(active(b.frame()), 12);
+  EXPECT_LT(std::abs(b.ledger().residual), 1e-3 * b.ledger().moved);
 }
 
 TEST(RateInsertion, ABlockedGrainIsReportedAndGetsInWhenTheBoxIsFree) {

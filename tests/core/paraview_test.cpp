@@ -182,6 +182,24 @@ TEST_F(ParaviewExport, PointsCarryTheState) {
   EXPECT_EQ(decode_as<std::int32_t>(file, "kind"), (std::vector<std::int32_t>{1, 0}));
 }
 
+TEST_F(ParaviewExport, InactiveBodiesAreLeftOut) {
+  ParaviewWriter writer(folder_, two_grains(), {});
+  Frame frame = two_poses(0.3);
+  frame.activity = {Activity::pending, Activity::active};
+  writer.write_frame(frame);
+  frame.activity = {Activity::deleted, Activity::deleted};
+  writer.write_frame(frame);
+  writer.finish();
+  fs::path const file = folder_ / "frames/grains_00000.vtp";
+  EXPECT_EQ(decode_as<std::int32_t>(file, "body"), (std::vector<std::int32_t>{1}));
+  EXPECT_EQ(decode_as<double>(file, "diameter"), (std::vector<double>{0.4}));
+  EXPECT_EQ(decode_as<double>(file, "position"), (std::vector<double>{0.75, 0.5, 0.5}));
+  EXPECT_EQ(decode_as<double>(file, "orientation"), (std::vector<double>{1, 0, 0, 0}));
+  for (std::int32_t const body : decode_as<std::int32_t>(folder_ / "frames/surfaces_00000.vtp", "body"))
+    ASSERT_EQ(body, 1);
+  EXPECT_TRUE(decode_as<std::int32_t>(folder_ / "frames/surfaces_00001.vtp", "body").empty());
+}
+
 TEST_F(ParaviewExport, SurfacesAreThinnedToTheBudgetButTheLastFrameHasThem) {
   write(10, 3);
   std::string const scene = read_file(folder_ / "scene.pvd"), grains = read_file(folder_ / "grains.pvd");

@@ -3,6 +3,7 @@
 #include "core/results.h"
 
 #include <gtest/gtest.h>
+#include <hdf5.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -98,6 +99,30 @@ std::string refusal(fs::path const& file, bool recover = false) {
     return error.what();
   }
   return "";
+}
+
+// Files from before columns had names: those of every run, and two more.
+TEST_F(ResultsFile, OldLedgersAreRead) {
+  fs::path const partial = file_.string() + ".partial";
+  {
+    ResultsHeader h = header(2);
+    h.ledger = {"inserted", "global_damping"};
+    ResultsWriter writer(file_, h);
+    writer.write_frame(frame(2, 0));
+    writer.write_ledger(ledger_row(1));
+  }
+  {
+    hid_t const file = H5Fopen(partial.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+    ASSERT_GE(file, 0);
+    EXPECT_GE(H5Ldelete(file, "ledger_columns", H5P_DEFAULT), 0);
+    H5Fclose(file);
+  }
+  std::vector<LedgerRow> const ledger = ResultsReader(partial, true).ledger();
+  ASSERT_EQ(ledger.size(), 1u);
+  EXPECT_EQ(ledger[0].inserted, 5);
+  EXPECT_EQ(ledger[0].global_damping, 9);
+  EXPECT_EQ(ledger[0].moved, 12.5);
+  EXPECT_EQ(ledger[0].applied, 0);
 }
 
 TEST_F(ResultsFile, FramesSayWhichBodiesAreActiveWhereTheHeaderSaysSo) {
