@@ -11,6 +11,7 @@
 #include "core/case_check.h"
 #include "core/case_effects_text.h"
 #include "core/case_reader.h"
+#include "core/case_wall.h"
 #include "core/certificate_gate.h"
 #include "core/insert_file.h"
 #include "core/sampled_grains.h"
@@ -212,26 +213,6 @@ void read_grains(CaseReader r, GrainsCase& out) {
   r.finish();
 }
 
-void read_wall(CaseReader r, WallCase& out) {
-  r.text("name", out.name, Need::required);
-  r.text("material", out.material, Need::required);
-  bool const known = r.choice<WallKind>("kind", out.kind, {{"plane", WallKind::plane}, {"box", WallKind::box}},
-                                        {"cylinder", "cone", "capsule", "mesh", "terrain"}, Need::required);
-  if (!known) return;  // the other keys depend on the kind
-  if (out.kind == WallKind::plane) {
-    r.vector("point", out.point, Need::required);
-    r.vector("normal", out.normal, Need::required);
-  } else {
-    bool inside = true;
-    r.choice<bool>("side", inside, {{"inside", true}}, {"outside"});
-    r.vector("min", out.min, Need::required);
-    r.vector("max", out.max, Need::required);
-    r.texts("open", out.open);
-  }
-  r.unsupported({"motion", "file"});
-  r.finish();
-}
-
 void read_output(CaseReader r, OutputCase& out) {
   r.number("every", out.every);
   r.boolean("paraview", out.paraview);
@@ -338,6 +319,8 @@ void resolve_files(Case& c, std::filesystem::path const& share, CaseProblems& pr
   for (std::size_t i = 0; i < c.library.size(); ++i)
     if (!c.library[i].file.empty())  // else already reported
       c.library[i].file = resolved(c.library[i].file, fmt::format("library.{}.file", i));
+  for (std::size_t i = 0; i < c.wall.size(); ++i)
+    if (!c.wall[i].file.empty()) c.wall[i].file = resolved(c.wall[i].file, fmt::format("wall.{}.file", i));
   for (std::size_t i = 0; i < c.grains.size(); ++i)
     for (std::string& word : c.grains[i].shapes)
       if (std::filesystem::path const file = mesh_file_of(word); !file.empty())

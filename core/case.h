@@ -32,7 +32,8 @@ class InputError : public std::runtime_error {
 enum class Evaluator { net, grid, mesh, analytic };  // net: as the shape is stored
 // How surface nodes are kept: positions and areas, or 16-bit radii along directions that all grains share.
 enum class NodeStorage { explicit_, compact };
-enum class WallKind { plane, box };
+enum class WallKind { plane, box, cylinder, cone, capsule, mesh, terrain };
+enum class MotionKind { rotation, translation };
 enum class Orientation { random, aligned };
 
 struct SettleCase {
@@ -142,12 +143,33 @@ struct GrainsCase {
   std::optional<InterpolateCase> interpolate{};  // ... sample and interpolate
 };
 
+// Prescribed motion of a wall. Constant between start and end, or a table: linear between its times, constant beyond.
+struct MotionCase {
+  MotionKind kind = MotionKind::rotation;
+  Vec3 axis{0, 0, 1}, through;    // rotation: right-handed about this line [m]
+  double rate = 0;                // rotation [rad/s]
+  Vec3 velocity;                  // translation [m/s]
+  double start = 0, end = 1e300;  // [s]
+  std::vector<double> time;       // table: ascending [s]; empty: constant
+  std::vector<double> rates;      // ... of a rotation [rad/s]
+  std::vector<Vec3> velocities;   // ... of a translation [m/s]
+};
+
 struct WallCase {
   std::string name, material;
   WallKind kind = WallKind::plane;
-  Vec3 point, normal{0, 0, 1};    // plane: a point on it [m], normal into the free space
-  Vec3 min, max;                  // box, free space inside [m]
-  std::vector<std::string> open;  // faces left out: "-x" "+x" "-y" "+y" "-z" "+z"
+  Vec3 point, normal{0, 0, 1};            // plane: a point on it [m], normal into the free space
+  bool inside = true;                     // box, cylinder, mesh: where the grains are
+  Vec3 min, max;                          // box [m]
+  std::vector<std::string> open;          // faces left out: box "-x" "+x" "-y" "+y" "-z" "+z"; cylinder "from" "to"
+  Vec3 from, to{0, 0, 1};                 // cylinder, cone, capsule: ends of the axis [m]
+  double radius = 0;                      // cylinder, capsule [m]
+  double radius_from = 0, radius_to = 0;  // cone: of the middle of its wall at both ends [m]
+  double thickness = 0;                   // cone; mesh: a sheet this thick, 0: a closed mesh [m]
+  std::filesystem::path file;             // mesh, terrain; resolved
+  double scale = 1;                       // mesh, terrain: [m] a unit of the file
+  Vec3 shift;                             // ... then moved by [m]
+  std::optional<MotionCase> motion;
 };
 
 struct OutputCase {

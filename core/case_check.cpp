@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/case_check.h"
 
+#include "core/case_wall.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -319,23 +321,12 @@ void Checker::grains() {
 }
 
 void Checker::walls() {
-  std::vector<std::string> const faces{"-x", "+x", "-y", "+y", "-z", "+z"};
   names(c_.wall, "wall");
   for (std::size_t i = 0; i < c_.wall.size(); ++i) {
     WallCase const& w = c_.wall[i];
     std::string const at = fmt::format("wall.{}.", i);
     known(at + "material", w.material, material_, "material");
-    if (w.kind == WallKind::plane) {
-      finite(at + "point", w.point);
-      if (!(is_finite(w.normal) && norm(w.normal) > 0))
-        fail(at + "normal", "must have a length: it points into the free space");
-      continue;
-    }
-    Vec3 const size = w.max - w.min;
-    if (!(is_finite(size) && size.x > 0 && size.y > 0 && size.z > 0))
-      fail(at + "max",
-           fmt::format("the box is {} x {} x {} m: max must exceed min on every axis", size.x, size.y, size.z));
-    for (std::string const& face : w.open) known(at + "open", face, faces, "face");
+    check_wall(w, [&](std::string const& key, std::string text) { fail(at + key, std::move(text)); });
   }
 }
 

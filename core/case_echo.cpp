@@ -5,40 +5,25 @@
 
 #include "core/case.h"
 #include "core/case_effects_text.h"
+#include "core/case_wall.h"
 #include "core/certificate_gate.h"
 #include "core/sampled_grains.h"
+#include "core/toml_text.h"
 
 namespace scree {
 namespace {
-
-// A TOML basic string.
-std::string quoted(std::string const& text) {
-  std::string out = "\"";
-  for (char const c : text) {
-    if (c == '"' || c == '\\')
-      out += fmt::format("\\{}", c);
-    else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
-      out += fmt::format("\\u{:04X}", static_cast<unsigned char>(c));
-    else
-      out += c;
-  }
-  return out + "\"";
-}
 
 std::string list(std::vector<std::string> const& items) { return fmt::format("[{}]", fmt::join(items, ", ")); }
 
 std::string quoted_list(std::vector<std::string> const& items) {
   std::vector<std::string> out;
-  for (std::string const& item : items) out.push_back(quoted(item));
+  for (std::string const& item : items) out.push_back(toml_quoted(item));
   return list(out);
 }
 
-// fmt's shortest round-trip digits: reading them back gives the same double.
-std::string vector(Vec3 v) { return fmt::format("[{}, {}, {}]", v.x, v.y, v.z); }
-
 std::string vectors(std::vector<Vec3> const& vs) {
   std::vector<std::string> out;
-  for (Vec3 const& v : vs) out.push_back(vector(v));
+  for (Vec3 const& v : vs) out.push_back(toml_vector(v));
   return list(out);
 }
 
@@ -85,8 +70,8 @@ void write_time(std::string& out, TimeCase const& t) {
 }
 
 void write_contact(std::string& out, ContactCase const& c) {
-  out += fmt::format("\n[[contact]]\npair = [{}, {}]\nlaw = \"{}\"\n", quoted(c.pair.first), quoted(c.pair.second),
-                     to_string(c.law));
+  out += fmt::format("\n[[contact]]\npair = [{}, {}]\nlaw = \"{}\"\n", toml_quoted(c.pair.first),
+                     toml_quoted(c.pair.second), to_string(c.law));
   if (c.law == ContactLaw::linear)
     out += fmt::format("normal = {{ stiffness = {}, onset = {}, at_overlap = {} }}  # [N/m], [d], [d]\n", c.stiffness,
                        c.onset, c.at_overlap);
@@ -110,8 +95,8 @@ void write_contact(std::string& out, ContactCase const& c) {
 }
 
 std::string sample_keys(SampleCase const& s) {
-  std::string out = fmt::format("sample = {{ library = {}, category = {}, truncate = {}", quoted(s.library),
-                                quoted(s.category), s.truncate);
+  std::string out = fmt::format("sample = {{ library = {}, category = {}, truncate = {}", toml_quoted(s.library),
+                                toml_quoted(s.category), s.truncate);
   for (FormScreen const& f : form_screens())
     if (Interval const& i = s.*f.wanted; i.low > Interval{}.low || i.high < Interval{}.high)
       out += fmt::format(", {} = [{}, {}]", f.key, i.low, i.high);
@@ -120,12 +105,12 @@ std::string sample_keys(SampleCase const& s) {
 
 std::string interpolate_keys(InterpolateCase const& i) {
   std::string const t = i.random ? "\"random\"" : fmt::format("[{}, {}]", i.low, i.high);
-  return fmt::format("interpolate = {{ library = {}, from = {}, to = {}, t = {} }}\n", quoted(i.library),
-                     quoted(i.from), quoted(i.to), t);
+  return fmt::format("interpolate = {{ library = {}, from = {}, to = {}, t = {} }}\n", toml_quoted(i.library),
+                     toml_quoted(i.from), toml_quoted(i.to), t);
 }
 
 void write_grains(std::string& out, GrainsCase const& g) {
-  out += fmt::format("\n[[grains]]\nname = {}\nmaterial = {}\n", quoted(g.name), quoted(g.material));
+  out += fmt::format("\n[[grains]]\nname = {}\nmaterial = {}\n", toml_quoted(g.name), toml_quoted(g.material));
   if (!g.shapes.empty()) out += fmt::format("shapes = {}\n", quoted_list(g.shapes));
   if (g.sample) out += sample_keys(*g.sample);
   if (g.interpolate) out += interpolate_keys(*g.interpolate);
@@ -136,7 +121,7 @@ void write_grains(std::string& out, GrainsCase const& g) {
                      g.storage == NodeStorage::compact ? "compact" : "explicit", g.count, g.diameter);
   InsertCase const& i = g.insert;
   std::string const moving =
-      fmt::format("velocity = {}, spin = {}", vector(i.velocity), vector(i.spin));  // [m/s], [rad/s]
+      fmt::format("velocity = {}, spin = {}", toml_vector(i.velocity), toml_vector(i.spin));  // [m/s], [rad/s]
   using Kind = InsertCase::Kind;
   if (i.kind == Kind::random || i.kind == Kind::rate)
     out += fmt::format("insert = {{ kind = \"{}\", box = {}, {}orientation = \"{}\", {} }}\n",
@@ -145,7 +130,7 @@ void write_grains(std::string& out, GrainsCase const& g) {
                        to_string(i.orientation), moving);
   else if (i.kind == Kind::file)
     out += fmt::format(
-        "insert = {{ kind = \"file\", file = {}, {}{} }}\n", quoted(std::filesystem::absolute(i.file).string()),
+        "insert = {{ kind = \"file\", file = {}, {}{} }}\n", toml_quoted(std::filesystem::absolute(i.file).string()),
         i.quaternion.empty() ? fmt::format("orientation = \"{}\", ", to_string(i.orientation)) : "", moving);
   else if (i.kind == Kind::lattice)
     out += fmt::format("insert = {{ kind = \"lattice\", box = {}, orientation = \"{}\", {} }}\n",
@@ -158,30 +143,21 @@ void write_grains(std::string& out, GrainsCase const& g) {
                        quaternions(i.quaternion), moving);
 }
 
-void write_wall(std::string& out, WallCase const& w) {
-  out += fmt::format("\n[[wall]]\nname = {}\nmaterial = {}\n", quoted(w.name), quoted(w.material));
-  if (w.kind == WallKind::plane)
-    out += fmt::format("kind = \"plane\"\npoint = {}\nnormal = {}\n", vector(w.point), vector(w.normal));
-  else
-    out += fmt::format("kind = \"box\"\nside = \"inside\"\nmin = {}\nmax = {}\nopen = {}\n", vector(w.min),
-                       vector(w.max), quoted_list(w.open));
-}
-
 }  // namespace
 
 std::string to_toml(Case const& c) {
-  std::string out = fmt::format("[case]\nname = {}\nseed = {}\n", quoted(c.name), c.seed);
+  std::string out = fmt::format("[case]\nname = {}\nseed = {}\n", toml_quoted(c.name), c.seed);
   write_time(out, c.time);
-  if (c.gravity) out += fmt::format("\n[gravity]\nacceleration = {}  # [m/s2]\n", vector(*c.gravity));
+  if (c.gravity) out += fmt::format("\n[gravity]\nacceleration = {}  # [m/s2]\n", toml_vector(*c.gravity));
   out += effects_to_toml(c);
   for (LibraryCase const& l : c.library)
-    out += fmt::format("\n[[library]]\nname = {}\nfile = {}\n", quoted(l.name),
-                       quoted(std::filesystem::absolute(l.file).string()));
+    out += fmt::format("\n[[library]]\nname = {}\nfile = {}\n", toml_quoted(l.name),
+                       toml_quoted(std::filesystem::absolute(l.file).string()));
   for (MaterialCase const& m : c.material)
-    out += fmt::format("\n[[material]]\nname = {}\ndensity = {}  # [kg/m3]\n", quoted(m.name), m.density);
+    out += fmt::format("\n[[material]]\nname = {}\ndensity = {}  # [kg/m3]\n", toml_quoted(m.name), m.density);
   for (ContactCase const& k : c.contact) write_contact(out, k);
   for (GrainsCase const& g : c.grains) write_grains(out, g);
-  for (WallCase const& w : c.wall) write_wall(out, w);
+  for (WallCase const& w : c.wall) out += wall_to_toml(w);
   out += fmt::format("\n[output]\nevery = {}  # [s]\nparaview = {}\n", c.output.every, c.output.paraview);
   if (c.checkpoint)
     out += fmt::format("\n[checkpoint]\nevery = {}  # [s]\nkeep = {}\n", c.checkpoint->every, c.checkpoint->keep);

@@ -148,6 +148,17 @@ bool CaseReader::interval(std::string const& key, double& low, double& high, Nee
   return true;
 }
 
+bool CaseReader::numbers(std::string const& key, std::vector<double>& out, Need need) {
+  CaseNode const* const node = present(key, need);
+  if (!node) return false;
+  bool const fits =
+      node->kind == CaseNode::Kind::array && std::all_of(node->element.begin(), node->element.end(), is_number);
+  if (!fits) return wrong_type(key, *node, "a list of numbers");
+  out.clear();
+  for (CaseNode const& element : node->element) out.push_back(element.real);
+  return true;
+}
+
 bool CaseReader::vectors(std::string const& key, std::vector<Vec3>& out, Need need) {
   CaseNode const* const node = present(key, need);
   if (!node) return false;

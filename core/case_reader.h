@@ -49,6 +49,7 @@ class CaseReader {
   bool texts(std::string const& key, std::vector<std::string>& out, Need need = Need::optional);
   bool vector(std::string const& key, Vec3& out, Need need = Need::optional);
   bool interval(std::string const& key, double& low, double& high, Need need = Need::optional);  // [low, high]
+  bool numbers(std::string const& key, std::vector<double>& out, Need need = Need::optional);
   bool vectors(std::string const& key, std::vector<Vec3>& out, Need need = Need::optional);
   bool quaternions(std::string const& key, std::vector<Quat>& out, Need need = Need::optional);
   // [[a, b], ...]: the first and the second numbers.

@@ -3,8 +3,10 @@
 #include "core/contacts.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
+#include "core/wall_bodies.h"
 #include "kernels/base/profile.h"
 #include "kernels/bounds.h"
 
@@ -23,6 +25,7 @@ bool pairs_are_stale(Scene const& scene, State const& state, Workspace const& wo
     Quat const turn = Quat{f.w, -f.x, -f.y, -f.z} * state.orientation[i];
     double const half_chord = std::sqrt(turn.x * turn.x + turn.y * turn.y + turn.z * turn.z);
     double const reach = scene.shape[scene.shape_of[i]].bounding_radius * scene.diameter[i];
+    if (!std::isfinite(reach)) continue;  // a wall without bounds is near every grain
     // Both bodies of a pair may use up their own skin.
     if (!(norm(state.position[i] - work.built_position[i]) + 2 * reach * half_chord < work.skin[i])) return true;
   }
@@ -55,9 +58,12 @@ void permute(std::vector<T>& values, std::vector<int> const& from, T fresh) {
 
 void rebuild_pairs(Queue const& queue, Scene const& scene, SceneView const& view, double skin, State& state,
                    Workspace& work) {
-  work.skin.resize(scene.bodies());
-  for (int i = 0; i < scene.bodies(); ++i) work.skin[i] = skin * scene.diameter[i];
-  work.box.resize(scene.bodies());
+  work.skin.resize(scene.solids());
+  double largest = 0;
+  for (int i = 0; i < scene.bodies(); ++i)
+    work.skin[i] = skin * scene.diameter[i], largest = std::max(largest, scene.diameter[i]);
+  for (int i = scene.bodies(); i < scene.solids(); ++i) work.skin[i] = skin * largest;
+  work.box.resize(scene.solids());
   std::vector<double> grown = work.skin;  // boxes reach as far as adhesion does
   for (double& s : grown) s += scene.cohesion_margin;
   compute_bounds(queue, view, state.view(), grown, work.box);
@@ -68,8 +74,9 @@ void rebuild_pairs(Queue const& queue, Scene const& scene, SceneView const& view
   work.closed_form.resize(work.pair.size());
   for (std::size_t k = 0; k < work.pair.size(); ++k) {
     Pair const p = work.pair[k];
-    work.closed_form[k] =
-        view.shape_record(p.a).closed_form_sphere && (p.with_plane() || view.shape_record(p.b).closed_form_sphere);
+    work.closed_form[k] = view.shape_record(p.a).closed_form_sphere &&
+                          (p.with_plane() || view.shape_record(p.b).closed_form_sphere ||
+                           (view.is_wall(p.b) && meets_spheres_in_closed_form(view.shape_record(p.b))));
   }
   assign_sides(view, static_cast<int>(scene.networks.net.size()), work.pair, work.old_pair, work.closed_form,
                work.gather, work.old_side);
@@ -83,7 +90,7 @@ void rebuild_pairs(Queue const& queue, Scene const& scene, SceneView const& view
     permute(state.rolling_history.angle, work.old_pair, Vec3{});
     permute(state.rolling_history.stiffness, work.old_pair, 0.0);
   }
-  assign_pairs_to_bodies(scene.bodies(), work.pair, work.pairs_of_bodies);
+  assign_pairs_to_bodies(scene.solids(), work.pair, work.pairs_of_bodies);
   work.built_position = state.position;
   work.built_orientation = state.orientation;
   ++work.pair_rebuilds;

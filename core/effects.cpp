@@ -4,22 +4,29 @@
 
 #include <algorithm>
 
+#include "core/wall_bodies.h"
+
 namespace scree {
 
 Effects effects_of(Case const& c, Scene const& scene) {
-  auto const any_shape = [&](auto test) { return std::any_of(scene.shape.begin(), scene.shape.end(), test); };
+  auto const grain_end = scene.shape.begin() + scene.templates();
+  auto const any_shape = [&](auto test) { return std::any_of(scene.shape.begin(), grain_end, test); };
+  auto const any_wall = [&](auto test) { return std::any_of(grain_end, scene.shape.end(), test); };
   auto const any_contact = [&](auto test) { return std::any_of(scene.contact.begin(), scene.contact.end(), test); };
   bool const spheres = any_shape([](ShapeRecord const& s) { return s.closed_form_sphere; });
   bool const others = any_shape([](ShapeRecord const& s) { return !s.closed_form_sphere; });
   auto const any_sdf = [&](SdfKind kind) { return any_shape([&](ShapeRecord const& s) { return s.sdf == kind; }); };
   Effects e;
   e.sphere_contacts = spheres;
-  e.node_contacts = others;
+  e.node_contacts =
+      others || (spheres && any_wall([](ShapeRecord const& w) { return !meets_spheres_in_closed_form(w); }));
   e.networks = any_sdf(SdfKind::net);
   e.harmonics = any_sdf(SdfKind::harmonics);
   e.grids = any_sdf(SdfKind::grid);
-  e.meshes = any_sdf(SdfKind::mesh);
-  e.analytic_nodes = others && (any_sdf(SdfKind::analytic) || !scene.plane.empty());
+  e.meshes = any_sdf(SdfKind::mesh) || any_wall([](ShapeRecord const& w) { return w.sdf == SdfKind::mesh; });
+  bool const formulas = any_sdf(SdfKind::analytic) || !scene.plane.empty() ||
+                        any_wall([](ShapeRecord const& w) { return w.sdf == SdfKind::analytic; });
+  e.analytic_nodes = e.node_contacts && formulas;
   e.friction = any_contact([](ContactParameters const& p) { return p.friction > 0; });
   e.rolling = scene.rolling;
   e.cohesion = scene.cohesion_reach > 0;
@@ -32,6 +39,8 @@ Effects effects_of(Case const& c, Scene const& scene) {
   e.insertion = std::any_of(c.grains.begin(), c.grains.end(),
                             [](GrainsCase const& g) { return g.insert.kind == InsertCase::Kind::rate && g.count > 0; });
   e.deletion = !c.deletion.empty();
+  e.wall_motion =
+      std::any_of(scene.wall.begin(), scene.wall.end(), [](WallBody const& w) { return w.motion.has_value(); });
   e.settle = c.time.settle.has_value();
   e.settle_damping = e.settle && c.time.settle->damping > 0;
   return e;
@@ -42,6 +51,7 @@ std::vector<std::string> stages_of(Effects const& e) {
   auto const add = [&](bool wanted, char const* name) {
     if (wanted) stages.push_back(name);
   };
+  add(e.wall_motion, "wall_motion");
   add(e.insertion, "insertion");
   add(true, "bounds");
   add(true, "broad_phase");
@@ -76,6 +86,7 @@ std::vector<std::string> names_of(Effects const& e) {
   if (e.rolling) names.push_back("rolling resistance");
   if (e.cohesion) names.push_back("cohesion");
   if (e.damping) names.push_back("damping");
+  if (e.wall_motion) names.push_back("wall motion");
   if (e.settle) names.push_back("settle");
   return names;
 }

@@ -24,6 +24,7 @@ struct Effects {
   bool cohesion = false;
   bool damping = false;
   bool gravity = false;
+  bool wall_motion = false;
   bool force = false;  // applied forces or torques
   bool drag = false;
   bool global_damping = false;  // [damping], all the time

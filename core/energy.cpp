@@ -28,6 +28,7 @@ LedgerRow make_ledger(Scene const& scene, std::optional<Vec3> gravity, State con
   row.damping = -sum(state.work_damping);
   row.friction = -sum(state.work_friction) - row.elastic_tangential;
   row.rolling = -sum(state.work_rolling) - row.elastic_rolling;
+  row.wall_work = sum(state.wall_work);
   row.global_damping = sum(state.removed_by_damping);
   row.inserted = state.inserted_energy;
   row.deleted = state.deleted_energy;

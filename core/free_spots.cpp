@@ -44,7 +44,7 @@ bool SphereGrid::is_free(Vec3 centre, double radius) const {
   return true;
 }
 
-std::optional<Vec3> find_free_spot(Box const& box, double radius, SphereGrid const& grid, Span<const PlaneRecord> plane,
+std::optional<Vec3> find_free_spot(Box const& box, double radius, SphereGrid const& grid, WallClearance const& walls,
                                    int tries, std::uint64_t& random) {
   Vec3 const low = box.min + Vec3{1, 1, 1} * radius, room = box.max - box.min - Vec3{1, 1, 1} * (2 * radius);
   if (!(room.x >= 0 && room.y >= 0 && room.z >= 0)) return std::nullopt;
@@ -52,9 +52,7 @@ std::optional<Vec3> find_free_spot(Box const& box, double radius, SphereGrid con
   for (int k = 0; k < tries; ++k) {
     double const u = draw.uniform(), v = draw.uniform(), w = draw.uniform();
     Vec3 const centre = low + multiply(room, Vec3{u, v, w});
-    bool const in_front = std::all_of(plane.begin(), plane.end(),
-                                      [&](PlaneRecord const& p) { return dot(p.normal, centre - p.point) >= radius; });
-    if (in_front && grid.is_free(centre, radius)) return centre;
+    if (walls.is_clear(centre, radius) && grid.is_free(centre, radius)) return centre;
   }
   return std::nullopt;
 }

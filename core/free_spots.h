@@ -7,7 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "kernels/views.h"
+#include "core/wall_clearance.h"
 
 namespace scree {
 
@@ -41,9 +41,9 @@ class SphereGrid {
   std::unordered_map<std::uint64_t, std::vector<Sphere>> cells_;
 };
 
-// A sphere that lies in the box, in front of all planes and meets no sphere of the grid: the first that fits of `tries`
+// A sphere that lies in the box, clear of all walls and meets no sphere of the grid: the first that fits of `tries`
 // uniform draws; none when all are taken or the box is thinner than the sphere.
-std::optional<Vec3> find_free_spot(Box const& box, double radius, SphereGrid const& grid, Span<const PlaneRecord> plane,
+std::optional<Vec3> find_free_spot(Box const& box, double radius, SphereGrid const& grid, WallClearance const& walls,
                                    int tries, std::uint64_t& random);
 
 }  // namespace scree

@@ -94,7 +94,8 @@ void insert_due(Queue const& queue, Case const& c, Scene const& scene, State& st
       double const own_radius = bounding_radius(scene, body);
       // Out of the reach of cohesion, too: a bond from nothing would be energy from nowhere.
       double const radius = own_radius + scene.cohesion_margin;
-      std::optional<Vec3> const spot = find_free_spot(box, radius, grid, scene.plane, tries_per_step, in.random);
+      std::optional<Vec3> const spot = find_free_spot(
+          box, radius, grid, WallClearance(scene, state.position, state.orientation), tries_per_step, in.random);
       if (!spot) break;
       activate(c, scene, body, *spot, state);
       grid.add(*spot, own_radius);

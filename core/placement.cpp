@@ -139,7 +139,8 @@ void place_at_random(Case const& c, Scene const& scene, Placement& out, std::vec
     GrainsCase const& grains = c.grains[group];
     // A little larger, so that rounding leaves no overlap, and out of the reach of cohesion.
     double const radius = bounding_radius(scene, i) * (1 + 1e-9) + scene.cohesion_margin;
-    std::optional<Vec3> const spot = find_free_spot(grains.insert.box, radius, grid, scene.plane, random_tries, random);
+    std::optional<Vec3> const spot =
+        find_free_spot(grains.insert.box, radius, grid, WallClearance(scene), random_tries, random);
     if (!spot) {
       found.push_back("grains '" + grains.name + "': grain " + std::to_string(i - first + 1) + " of " +
                       std::to_string(grains.count) + ", bounding diameter " + std::to_string(2 * radius) +
@@ -163,7 +164,8 @@ void check_later_places(Case const& c, Scene const& scene, std::vector<std::stri
     if (grains.insert.kind != InsertCase::Kind::rate || grains.count == 0) continue;
     std::uint64_t random = 1;
     SphereGrid const empty(largest[g]);
-    if (find_free_spot(grains.insert.box, largest[g] + scene.cohesion_margin, empty, scene.plane, random_tries, random))
+    if (find_free_spot(grains.insert.box, largest[g] + scene.cohesion_margin, empty, WallClearance(scene), random_tries,
+                       random))
       continue;
     found.push_back("grains '" + grains.name + "': a grain of bounding diameter " + std::to_string(2 * largest[g]) +
                     " m has no place in insert.box, inside it and in front of the walls, even while it is empty. Make "

@@ -6,6 +6,7 @@
 
 #include "core/placement.h"
 #include "core/scene_shapes.h"
+#include "core/wall_bodies.h"
 #include "kernels/contact_laws.h"
 #include "kernels/restitution.h"
 
@@ -28,6 +29,7 @@ SceneView Scene::view() const {
   v.inertia = inertia;
   v.plane = plane;
   v.contact = contact;
+  v.walls = static_cast<int>(wall.size());
   v.materials = static_cast<int>(material.size());
   v.friction = friction;
   v.cohesion_reach = cohesion_reach;
@@ -39,12 +41,6 @@ namespace {
 
 // Below this overlap Hertz's pressure is a straight line [d of the largest grain]: p' would be infinite at touch.
 double constexpr hertz_onset = 1e-4;
-
-int material_index(Case const& c, std::string const& name) {
-  for (std::size_t i = 0; i < c.material.size(); ++i)
-    if (c.material[i].name == name) return static_cast<int>(i);
-  return -1;  // refused by problems(Case)
-}
 
 PressureLaw normal_law(ContactCase const& contact, double d) {
   PressureLaw law;
@@ -127,25 +123,6 @@ void build_contacts(Case const& c, Scene& scene, std::vector<std::string>& found
   scene.cohesion_margin = scene.cohesion_reach / std::min(1.0, c.limits.gradient_low);
 }
 
-void build_planes(Case const& c, Scene& scene) {
-  for (std::size_t w = 0; w < c.wall.size(); ++w) {
-    WallCase const& wall = c.wall[w];
-    int const material = material_index(c, wall.material);
-    if (wall.kind == WallKind::plane) {
-      scene.plane.push_back({wall.point, normalized(wall.normal), material, static_cast<int>(w)});
-      continue;
-    }
-    for (int axis = 0; axis < 3; ++axis)
-      for (int high = 0; high < 2; ++high) {
-        std::string const face = std::string(high ? "+" : "-") + "xyz"[axis];
-        if (std::find(wall.open.begin(), wall.open.end(), face) != wall.open.end()) continue;
-        Vec3 normal;
-        normal[axis] = high ? -1 : 1;
-        scene.plane.push_back({high ? wall.max : wall.min, normal, material, static_cast<int>(w)});
-      }
-  }
-}
-
 void add_bodies(Case const& c, std::vector<std::vector<int>> const& templates, Scene& scene) {
   for (std::size_t g = 0; g < c.grains.size(); ++g) {
     GrainsCase const& grains = c.grains[g];
@@ -170,7 +147,6 @@ Scene build_scene(Case const& c, int threads, Placement& placement) {
   if (!found.empty()) throw InputError(found);
   Scene scene;
   build_contacts(c, scene, found);
-  build_planes(c, scene);
   ShapeCatalogue catalogue(c, found);
   std::vector<std::vector<int>> templates;
   for (GrainsCase const& grains : c.grains) templates.push_back(catalogue.templates_for(grains, scene, found));
@@ -186,8 +162,12 @@ Scene build_scene(Case const& c, int threads, Placement& placement) {
         break;
       }
   if (!found.empty()) throw InputError(found);
-  catalogue.finish(scene, templates, threads, found);
+  std::vector<WallSolid> const walls = build_walls(c, scene, found);
+  bool const sphere_nodes = std::any_of(walls.begin(), walls.end(),
+                                        [](WallSolid const& w) { return !meets_spheres_in_closed_form(w.record); });
+  catalogue.finish(scene, templates, sphere_nodes, threads, found);
   add_bodies(c, templates, scene);
+  add_wall_bodies(c, walls, scene);
   placement = place_grains(c, scene, found);
   if (!found.empty()) throw InputError(found);
   return scene;

@@ -3,6 +3,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,16 @@ struct UniqueGrains {
   std::vector<Vec3> inertia;  // principal, unit density [d^5] (n_unique)
 };
 
+// A wall as a body of infinite mass: body bodies() + i of the scene is wall body i. A box or a cylinder that moves has
+// one for each face.
+struct WallBody {
+  int wall = 0;      // of the case
+  Vec3 position;     // at time 0 [m]
+  Quat orientation;  // at time 0
+  std::optional<MotionCase> motion;
+  double reach = 0;  // of its solid about `position`, as far as grains come [m]
+};
+
 struct Scene {
   // Shapes in use, one template each (a shape with another node count is another template).
   Library library;  // library.shape[i] is template i; unique grains follow after its last shape
@@ -49,13 +60,15 @@ struct Scene {
   std::vector<int> block_first;  // with an end entry a template
   CompactStore compact;          // nodes of templates that keep 16-bit radii
 
-  // Bodies.
-  std::vector<int> shape_of, material_of, group_of;  // group: index of the [[grains]] entry
-  std::vector<double> diameter, mass;                // [m], [kg]
-  std::vector<Vec3> inertia;                         // principal [kg m2]
+  // Bodies: grains (n_bodies), then walls.
+  std::vector<int> shape_of, material_of;  // (n_solids)
+  std::vector<int> group_of;               // index of the [[grains]] entry (n_bodies)
+  std::vector<double> diameter, mass;      // [m], [kg] (n_solids)
+  std::vector<Vec3> inertia;               // principal [kg m2] (n_solids)
+  std::vector<WallBody> wall;              // (n_walls)
 
   std::vector<std::string> material;
-  std::vector<PlaneRecord> plane;
+  std::vector<PlaneRecord> plane;                  // walls at rest that are planes or faces of a box
   std::vector<ContactParameters> contact;          // [a * materials + b]
   bool friction = false, rolling = false;          // some pair has it: history exists
   double cohesion_reach = 0, cohesion_margin = 0;  // see SceneView
@@ -65,7 +78,9 @@ struct Scene {
   SceneView view() const;
   // Template as a shape of its own: unique grains are unpacked.
   Shape template_shape(int index) const;
-  int bodies() const { return static_cast<int>(shape_of.size()); }
+  int bodies() const { return static_cast<int>(group_of.size()); }
+  int solids() const { return static_cast<int>(shape_of.size()); }
+  int templates() const { return static_cast<int>(shape.size() - wall.size()); }  // of grains; walls follow
 };
 
 // Poses and velocities a case starts from (n_bodies).

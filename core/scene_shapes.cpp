@@ -225,7 +225,7 @@ void append_nodes(SurfaceNodes const& nodes, ShapeRecord& record, Scene& scene) 
 
 }  // namespace
 
-void ShapeCatalogue::finish(Scene& scene, std::vector<std::vector<int>>& templates, int threads,
+void ShapeCatalogue::finish(Scene& scene, std::vector<std::vector<int>>& templates, bool sphere_nodes, int threads,
                             std::vector<std::string>& found) {
   SceneEvaluators evaluators(libraries_, scene, threads);
   for (std::size_t i = 0; i < keys_.size(); ++i) {
@@ -249,8 +249,9 @@ void ShapeCatalogue::finish(Scene& scene, std::vector<std::vector<int>>& templat
   }
   std::vector<CompactGrain> compact(keys_.size());
   std::vector<GrainFault> fault(keys_.size(), GrainFault::no_surface);
-  bool const only_spheres = unique_.empty() && std::all_of(scene.shape.begin(), scene.shape.end(),
-                                                           [](ShapeRecord const& r) { return r.closed_form_sphere; });
+  bool const only_spheres =
+      !sphere_nodes && unique_.empty() &&
+      std::all_of(scene.shape.begin(), scene.shape.end(), [](ShapeRecord const& r) { return r.closed_form_sphere; });
   // Node sets are independent of each other and of the thread that makes them.
   std::vector<SurfaceNodes> nodes(keys_.size());
   std::vector<std::string> errors(keys_.size());

@@ -23,7 +23,9 @@ class ShapeCatalogue {
   // behind all others: negative until finish() has placed them.
   std::vector<int> make_templates(Case const& c, int group, Scene& scene, int threads, std::vector<std::string>& found);
   // Fill in records, nodes and networks of all templates, and the places that make_templates left open.
-  void finish(Scene& scene, std::vector<std::vector<int>>& templates, int threads, std::vector<std::string>& found);
+  // Nodes are left out where only closed-form spheres are and `sphere_nodes` is false.
+  void finish(Scene& scene, std::vector<std::vector<int>>& templates, bool sphere_nodes, int threads,
+              std::vector<std::string>& found);
 
  private:
   struct Key {

@@ -12,6 +12,7 @@
 #include "core/energy.h"
 #include "core/insertion.h"
 #include "core/simulation_impl.h"
+#include "core/wall_motion.h"
 #include "kernels/body_effects.h"
 #include "kernels/integrate.h"
 
@@ -39,9 +40,17 @@ Simulation::Impl::Impl(Case const& c_, SimulationOptions const& options_, Frame 
     Mat3 const r = to_matrix(state.orientation[i]);
     state.angular_momentum.push_back(r * multiply(scene.inertia[i], transposed_times(r, placement.spin[i])));
   }
-  for (auto* v : {&state.work_damping, &state.work_friction, &state.removed_by_damping}) v->assign(n, 0);
+  for (WallBody const& wall : scene.wall) {
+    state.position.push_back(wall.position);
+    state.orientation.push_back(wall.orientation);
+    state.velocity.push_back({});
+    state.angular_momentum.push_back({});
+  }
+  for (auto* v : {&state.work_damping, &state.work_friction}) v->assign(scene.solids(), 0);
+  state.removed_by_damping.assign(n, 0);
+  state.wall_work.assign(scene.wall.size(), 0);
   if (effects.force) state.work_applied.assign(n, 0);
-  if (effects.rolling) state.work_rolling.assign(n, 0);
+  if (effects.rolling) state.work_rolling.assign(scene.solids(), 0);
   if (effects.drag) state.removed_by_drag.assign(n, 0);
   if (start && (effects.insertion || effects.deletion)) state.activity = start->activity;
   if (effects.insertion) start_insertion(c, scene, state);
@@ -68,7 +77,9 @@ RunState Simulation::Impl::step() {
   SceneView const view = scene.view();
   double const dt = state.time_step;
   if (effects.insertion) insert_due(queue, c, scene, state, work, messages);
-  WorkView const work_done{state.work_damping, state.work_friction, state.work_applied, state.work_rolling};
+  WorkView const work_done{state.work_damping, state.work_friction, state.wall_work, state.work_applied,
+                           state.work_rolling};
+  if (effects.wall_motion) move_walls(dt);
   brake_bodies(queue, c, effects, view, dt / 2, state);
   if (effects.force) push_bodies(queue, c, scene, state.time, state.time + dt / 2, work);
   open_step(queue, view, state.view(), work.wrenches(state.wrench), dt, work_done);
@@ -91,6 +102,21 @@ RunState Simulation::Impl::step() {
   if (run_state != RunState::running && effects.insertion) report_insertion(c, state, messages);
   if (run_state != RunState::running && effects.deletion) report_deletion(c, state, messages);
   return run_state;
+}
+
+void Simulation::Impl::move_walls(double dt) {
+  ScopedTimer const timer(queue.profile, "wall_motion/poses", static_cast<int>(scene.wall.size()));
+  for (std::size_t w = 0; w < scene.wall.size(); ++w) {
+    WallBody const& wall = scene.wall[w];
+    if (!wall.motion) continue;
+    std::size_t const i = scene.bodies() + w;
+    WallPose const next = pose_at(*wall.motion, wall.position, wall.orientation, state.time + dt);
+    double const turn = shift_at(*wall.motion, state.time + dt).angle - shift_at(*wall.motion, state.time).angle;
+    state.velocity[i] = (next.position - state.position[i]) / dt;
+    state.angular_momentum[i] = normalized(wall.motion->axis) * (turn / dt);
+    state.position[i] = next.position;
+    state.orientation[i] = next.orientation;
+  }
 }
 
 void Simulation::Impl::check_limits() {

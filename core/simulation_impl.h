@@ -33,6 +33,7 @@ struct Simulation::Impl {
   double gravity_size() const;  // [m/s2]; 9.81 where the case has none
 
  private:
+  void move_walls(double dt);
   void check_limits();
   void check_time_step();
   void settle();

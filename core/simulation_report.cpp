@@ -91,9 +91,9 @@ Plan Simulation::plan() const {
         plan.law += (plan.law.empty() ? "" : "\n") + law_of(s, a, b);
   plan.arrays = arrays_of(s);
   plan.bodies = s.scene.bodies();
-  plan.shapes = static_cast<int>(s.scene.shape.size());
+  plan.shapes = s.scene.templates();
   plan.networks = static_cast<int>(s.scene.networks.net.size());
-  for (ShapeRecord const& shape : s.scene.shape) plan.nodes_max = std::max(plan.nodes_max, shape.nodes);
+  for (int i = 0; i < plan.shapes; ++i) plan.nodes_max = std::max(plan.nodes_max, s.scene.shape[i].nodes);
   plan.step = s.state.time_step;
   plan.steps = static_cast<std::int64_t>(std::ceil(s.c.time.end / s.state.time_step));
   plan.notes = s.scene.notes;
@@ -123,12 +123,13 @@ ResultsHeader Simulation::results_header() const {
   ResultsHeader header;
   header.case_text = to_toml(s.c);
   header.library = s.scene.library;
-  for (std::size_t i = header.library.shape.size(); i < s.scene.shape.size(); ++i)
+  for (std::size_t i = header.library.shape.size(); i < std::size_t(s.scene.templates()); ++i)
     header.library.shape.push_back(s.scene.template_shape(static_cast<int>(i)));
   for (Shape const& shape : header.library.shape) header.shape_name.push_back(shape.name);
-  header.shape = s.scene.shape_of;
-  header.diameter = s.scene.diameter;
-  header.material = s.scene.material_of;
+  int const n = s.scene.bodies();
+  header.shape.assign(s.scene.shape_of.begin(), s.scene.shape_of.begin() + n);
+  header.diameter.assign(s.scene.diameter.begin(), s.scene.diameter.begin() + n);
+  header.material.assign(s.scene.material_of.begin(), s.scene.material_of.begin() + n);
   header.group = s.scene.group_of;
   header.replica.assign(s.scene.bodies(), 0);
   for (PlaneRecord const& plane : s.scene.plane)
@@ -145,20 +146,22 @@ ResultsHeader Simulation::results_header() const {
       domain.max[k] = std::max(domain.max[k], s.state.position[i][k] + r);
     }
   }
-  for (GrainsCase const& grains : s.c.grains) {
-    if (grains.insert.kind != InsertCase::Kind::rate) continue;
-    for (int k = 0; k < 3; ++k) {
-      domain.min[k] = std::min(domain.min[k], grains.insert.box.min[k]);
-      domain.max[k] = std::max(domain.max[k], grains.insert.box.max[k]);
-    }
-  }
-  for (WallCase const& wall : s.c.wall) {
-    Vec3 const low = wall.kind == WallKind::box ? wall.min : wall.point;
-    Vec3 const high = wall.kind == WallKind::box ? wall.max : wall.point;
+  auto const include = [&](Vec3 low, Vec3 high) {
     for (int k = 0; k < 3; ++k) {
       domain.min[k] = std::min(domain.min[k], low[k]);
       domain.max[k] = std::max(domain.max[k], high[k]);
     }
+  };
+  for (GrainsCase const& grains : s.c.grains)
+    if (grains.insert.kind == InsertCase::Kind::rate) include(grains.insert.box.min, grains.insert.box.max);
+  for (WallCase const& wall : s.c.wall) {
+    if (wall.kind == WallKind::plane) include(wall.point, wall.point);
+    if (wall.kind == WallKind::box) include(wall.min, wall.max);
+  }
+  for (std::size_t w = 0; w < s.scene.wall.size(); ++w) {
+    WallBody const& wall = s.scene.wall[w];
+    Vec3 const reach = Vec3{1, 1, 1} * wall.reach;
+    include(wall.position - reach, wall.position + reach);
   }
   if (s.scene.bodies() == 0 && s.c.wall.empty()) domain = {};
   return header;
@@ -166,8 +169,14 @@ ResultsHeader Simulation::results_header() const {
 
 Frame Simulation::frame() const {
   Impl const& s = *impl_;
-  Frame frame{s.state.time,     s.state.step, s.state.position, s.state.orientation,
-              s.state.velocity, {},           s.state.activity};
+  auto const of_grains = [&](auto const& v) { return std::vector(v.begin(), v.begin() + s.scene.bodies()); };
+  Frame frame{s.state.time,
+              s.state.step,
+              of_grains(s.state.position),
+              of_grains(s.state.orientation),
+              of_grains(s.state.velocity),
+              {},
+              s.state.activity};
   for (int i = 0; i < s.scene.bodies(); ++i)
     frame.spin.push_back(spin_of(to_matrix(s.state.orientation[i]), s.scene.inertia[i], s.state.angular_momentum[i]));
   return frame;

@@ -21,16 +21,19 @@ struct Insertion {
 };
 
 struct State {
+  // Of grains, then of walls (n_solids). A wall's velocity is its mean over the last step.
   std::vector<Vec3> position, velocity, angular_momentum;
   std::vector<Quat> orientation;
   BodyWrenches wrench;  // of the last step: the next one opens with them
   NodeHistory node_history;
   SphereHistory sphere_history;
   RollingHistory rolling_history;
-  std::vector<double> work_damping, work_friction, removed_by_damping;  // since the start [J] (n_bodies)
-  std::vector<double> work_applied, removed_by_drag;                    // ... (n_bodies), empty without the effect
-  std::vector<double> work_rolling;                                     // ... (n_bodies), empty without the effect
-  double time = 0, time_step = 0;                                       // [s]
+  std::vector<double> work_damping, work_friction;    // since the start [J] (n_solids)
+  std::vector<double> removed_by_damping;             // since the start [J] (n_bodies)
+  std::vector<double> wall_work;                      // done by each wall since the start [J] (n_walls)
+  std::vector<double> work_applied, removed_by_drag;  // ... (n_bodies), empty without the effect
+  std::vector<double> work_rolling;                   // ... (n_solids), empty without the effect
+  double time = 0, time_step = 0;                     // [s]
   std::int64_t step = 0;
   // Of runs with insertion over time or deletion; else empty.
   std::vector<Activity> activity;     // (n_bodies)

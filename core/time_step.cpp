@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/wall_motion.h"
 #include "kernels/contact_laws.h"
 
 namespace scree {
@@ -29,6 +30,7 @@ double fall_height(Vec3 down, Scene const& scene, Placement const& placement) {
       lowest = std::max(lowest, dot(down, x) + depth);
     }
   }
+  for (WallBody const& wall : scene.wall) lowest = std::max(lowest, dot(down, wall.position) + wall.reach);
   return std::max(0.0, lowest - highest);
 }
 
@@ -104,8 +106,11 @@ StepEstimate estimate_critical_step(Case const& c, Scene const& scene, Placement
     fastest = std::max(fastest, norm(placement.velocity[i]) + r * norm(placement.spin[i]));
   }
   if (c.drag) fastest += norm(c.drag->fluid_velocity);
-  // Two grains may meet head-on.
-  double speed2 = 4 * fastest * fastest;
+  // Two grains may meet head-on, or a wall comes towards one.
+  double driven = 0;
+  for (WallBody const& wall : scene.wall)
+    if (wall.motion) driven = std::max(driven, scree::fastest(*wall.motion, wall.position, wall.reach));
+  double speed2 = std::max(4 * fastest * fastest, (fastest + driven) * (fastest + driven));
   if (c.gravity && norm(*c.gravity) > 0)
     speed2 += 2 * norm(*c.gravity) * fall_height(normalized(*c.gravity), scene, placement);
   speed2 += speed2_of_forces(c, scene, placement);

@@ -35,7 +35,8 @@ WatchReport watch(Queue const& queue, Scene const& scene, State& state, double g
   }
   for (std::size_t k = 0; k < work.pair.size(); ++k) {
     Pair const p = work.pair[k];
-    double const d = p.with_plane() ? scene.diameter[p.a] : std::min(scene.diameter[p.a], scene.diameter[p.b]);
+    bool const wall = p.with_plane() || p.b >= n;
+    double const d = wall ? scene.diameter[p.a] : std::min(scene.diameter[p.a], scene.diameter[p.b]);
     if (work.result[k].overlap > report.overlap * d)
       report.overlap = work.result[k].overlap / d, report.overlap_pair = static_cast<int>(k);
   }
@@ -47,9 +48,10 @@ std::string describe_body(Scene const& scene, int body) {
 }
 
 std::string describe_pair(Scene const& scene, Case const& c, Pair pair) {
-  return describe_body(scene, pair.a) + " and " +
-         (pair.with_plane() ? "wall '" + c.wall[scene.plane[pair.plane()].wall].name + "'"
-                            : describe_body(scene, pair.b));
+  bool const wall = pair.with_plane() || pair.b >= scene.bodies();
+  if (!wall) return describe_body(scene, pair.a) + " and " + describe_body(scene, pair.b);
+  int const index = pair.with_plane() ? scene.plane[pair.plane()].wall : scene.wall[pair.b - scene.bodies()].wall;
+  return describe_body(scene, pair.a) + " and wall '" + c.wall[index].name + "'";
 }
 
 }  // namespace scree

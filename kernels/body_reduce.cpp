@@ -66,7 +66,7 @@ void assign_pairs_to_bodies(int bodies, Span<const Pair> pair, PairsOfBodies& pa
 
 void reduce_to_bodies(Queue const& queue, SceneView const& scene, Span<const PairResult> result,
                       Span<const RollingResult> rolling, PairsOfBodies const& pairs, BodyWrenches& bodies) {
-  int const n = scene.bodies();
+  int const n = scene.solids();
   bodies.elastic.resize(n);
   bodies.damping.resize(n);
   bodies.friction.resize(n);

@@ -35,7 +35,7 @@ struct BoundsOfBody {
 
 void compute_bounds(Queue const& queue, SceneView const& scene, StateView const& state, Span<const double> skin,
                     Span<Box> box) {
-  parallel_for(queue, "bounds/boxes", scene.bodies(), BoundsOfBody{scene, state, skin, box}, 512);
+  parallel_for(queue, "bounds/boxes", scene.solids(), BoundsOfBody{scene, state, skin, box}, 512);
 }
 
 }  // namespace scree

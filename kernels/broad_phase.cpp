@@ -72,6 +72,7 @@ struct ParentBox {
 struct PairsOfBody {
   Span<const PlaneRecord> plane;
   Span<const Box> box;
+  int grains;
   Span<const int> order;
   Span<const Box> node;
   Span<const int> level_first;
@@ -121,6 +122,8 @@ struct PairsOfBody {
       if (2 * e.index + 1 < children) stack[depth++] = {e.level - 1, 2 * e.index + 1};
       stack[depth++] = {e.level - 1, 2 * e.index};
     }
+    for (int wall = grains; wall < box.size(); ++wall)
+      if (overlap(mine, box[wall])) emit(body, wall, n);
     if (pair.empty()) count[body] = n;
   }
 };
@@ -155,13 +158,13 @@ void build_hierarchy(Queue const& queue, Span<const Box> box, BroadPhase& work) 
 }  // namespace
 
 void find_pairs(Queue const& queue, SceneView const& scene, Span<const Box> box, BroadPhase& work) {
-  int const n = box.size();
+  int const n = box.size() - scene.walls;
   work.pair.clear();
   if (n == 0) return;
-  build_hierarchy(queue, box, work);
+  build_hierarchy(queue, box.subspan(0, n), work);
   work.count.resize(n);
   work.first.resize(n + 1);
-  PairsOfBody functor{scene.plane, box, work.order, work.node, work.level_first, work.count, work.first, {}};
+  PairsOfBody functor{scene.plane, box, n, work.order, work.node, work.level_first, work.count, work.first, {}};
   parallel_for(queue, "broad_phase/count", n, functor, 64);
   exclusive_scan(queue, work.count, work.first);
   work.pair.resize(work.first[n]);

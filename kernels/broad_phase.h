@@ -1,4 +1,4 @@
-// broad_phase.h: pairs of bodies whose boxes overlap, and of bodies and planes.
+// broad_phase.h: pairs of grains whose boxes overlap, and of grains and walls.
 // An implicit bounding volume hierarchy: leaves in Morton order, level k node i covers leaves [i 2^k, (i+1) 2^k).
 // No pointers, no atomics, near-linear for any mix of sizes, the same pairs in the same order for any thread count.
 // SPDX-License-Identifier: Apache-2.0
@@ -13,8 +13,8 @@
 namespace scree {
 
 struct Pair {
-  int a;  // body
-  int b;  // body > a, or -1 - plane
+  int a;  // grain
+  int b;  // grain > a, wall (behind all grains), or -1 - plane
 
   SCREE_HD bool with_plane() const { return b < 0; }
   SCREE_HD int plane() const { return -1 - b; }
@@ -31,6 +31,7 @@ struct BroadPhase {
   std::vector<Pair> pair;         // result, ordered by (a, planes first in ascending index, then b)
 };
 
+// box: of all solids (n_solids). Walls are few and large: each grain looks at every one of them.
 void find_pairs(Queue const& queue, SceneView const& scene, Span<const Box> box, BroadPhase& work);
 
 }  // namespace scree

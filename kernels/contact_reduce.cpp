@@ -156,7 +156,9 @@ struct ReducePair {
     PairResult out;
     if (rolling.on()) rolling.next_angle[k] = {}, rolling.next_stiffness[k] = 0, rolling.result[k] = {};
     int const sides[2] = {side_of_pair[2 * std::size_t(k)], side_of_pair[2 * std::size_t(k) + 1]};
-    double const share = sides[0] >= 0 && sides[1] >= 0 ? 0.5 : 1;
+    // Walls carry nodes along their sharp edges only, so the grain's nodes keep their whole weight against them.
+    bool const wall = p.with_plane() || scene.is_wall(p.b);
+    double const share = !wall && sides[0] >= 0 && sides[1] >= 0 ? 0.5 : 1;
     ContactParameters const& parameters = contact_parameters(scene, p);
     PressureLaw const law = law_at_radius(parameters.normal, effective_radius(scene, p));
     Vec3 const centre_b = centre_of_b(scene, state, p);

@@ -80,7 +80,7 @@ void reduce_node_contacts(Queue const& queue, SceneView const& scene, StateView 
                           NodeLists const& lists, ActiveNodes const& active, NodeHistory const& history,
                           NodeHistory& next, RollingView const& rolling, Span<PairResult> result);
 
-// Closed-form contacts of sphere-sphere and sphere-plane pairs.
+// Closed-form contacts of spheres with spheres, planes and smooth walls.
 void sphere_contacts(Queue const& queue, SceneView const& scene, StateView const& state, KinematicsView kinematics,
                      ContactOptions const& options, Span<const Pair> pair, Span<const char> closed_form,
                      SphereHistory const& history, SphereHistory& next, RollingView const& rolling,
@@ -93,9 +93,9 @@ struct PairsOfBodies {
 void assign_pairs_to_bodies(int bodies, Span<const Pair> pair, PairsOfBodies& pairs);
 
 struct BodyWrenches {
-  std::vector<Wrench> elastic, damping, friction;  // (n_bodies)
-  std::vector<Vec3> rolling;                       // couples [N m] (n_bodies), empty without rolling resistance
-  std::vector<double> stiffness;                   // S_i of the critical step [1/s^2] (n_bodies)
+  std::vector<Wrench> elastic, damping, friction;  // (n_solids)
+  std::vector<Vec3> rolling;                       // couples [N m] (n_solids), empty without rolling resistance
+  std::vector<double> stiffness;                   // S_i of the critical step [1/s^2]; walls: 0 (n_solids)
 };
 void reduce_to_bodies(Queue const& queue, SceneView const& scene, Span<const PairResult> result,
                       Span<const RollingResult> rolling, PairsOfBodies const& pairs, BodyWrenches& bodies);

@@ -30,6 +30,30 @@ SCREE_HD void account(SceneView const& scene, StateView const& state, WrenchesVi
   if (!w.rolling.empty()) work.rolling[i] += 0.5 * dt * dot(w.rolling[i], spin);
 }
 
+// Walls go where they are told; what the grains' forces do on them is the work of the drive, with the other sign.
+struct WorkOfWall {
+  SceneView scene;
+  StateView state;
+  WrenchesView wrenches;
+  double dt;
+  WorkView work;
+
+  SCREE_HD static double power(Wrench const& w, Vec3 velocity, Vec3 spin) {
+    return dot(w.force, velocity) + dot(w.torque, spin);
+  }
+  SCREE_HD void operator()(int wall) const {
+    int const i = scene.bodies() + wall;
+    Vec3 const v = state.velocity[i], spin = state.angular_momentum[i];
+    double const damping = 0.5 * dt * power(wrenches.damping[i], v, spin);
+    double const friction = 0.5 * dt * power(wrenches.friction[i], v, spin);
+    work.damping[i] += damping;
+    work.friction[i] += friction;
+    double const rolling = wrenches.rolling.empty() ? 0 : 0.5 * dt * dot(wrenches.rolling[i], spin);
+    if (!wrenches.rolling.empty()) work.rolling[i] += rolling;
+    work.wall[wall] -= damping + friction + rolling + 0.5 * dt * power(wrenches.elastic[i], v, spin);
+  }
+};
+
 struct OpenStep {
   SceneView scene;
   StateView state;
@@ -70,11 +94,13 @@ struct CloseStep {
 
 void open_step(Queue const& queue, SceneView const& scene, StateView const& state, WrenchesView const& wrenches,
                double dt, WorkView const& work) {
+  parallel_for(queue, "integrate/walls", scene.walls, WorkOfWall{scene, state, wrenches, dt, work}, 64);
   parallel_for(queue, "integrate/open", scene.bodies(), OpenStep{scene, state, wrenches, dt, work}, 256);
 }
 
 void close_step(Queue const& queue, SceneView const& scene, StateView const& state, WrenchesView const& wrenches,
                 double dt, WorkView const& work) {
+  parallel_for(queue, "integrate/walls", scene.walls, WorkOfWall{scene, state, wrenches, dt, work}, 64);
   parallel_for(queue, "integrate/close", scene.bodies(), CloseStep{scene, state, wrenches, dt, work}, 256);
 }
 

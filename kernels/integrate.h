@@ -16,15 +16,17 @@ struct WrenchesView {
   Span<const Vec3> rolling;    // couples of rolling resistance [N m]; empty: none
 };
 
-// Work done on each body since the start, by kind [J] (n_bodies each): half-step velocity times the mean of the old
-// and the new force, so that kinetic energy plus these close to second order in the step.
+// Work done on each solid since the start, by kind [J] (n_solids each): half-step velocity times the mean of the old
+// and the new force, so that kinetic energy plus these close to second order in the step. wall: done by each wall on
+// the grains, forces of all kinds (n_walls).
 struct WorkView {
-  Span<double> damping, friction;
+  Span<double> damping, friction, wall;
   Span<double> applied;  // empty: none
   Span<double> rolling;  // empty: none
 };
 
 // Half kick with the wrenches of step n, then drift over dt: leaves half-step velocities at the poses of step n + 1.
+// Walls already stand there, with their mean velocities of the step.
 void open_step(Queue const& queue, SceneView const& scene, StateView const& state, WrenchesView const& wrenches,
                double dt, WorkView const& work);
 

@@ -20,7 +20,8 @@ struct KinematicsOfBody {
 
   SCREE_HD void operator()(int i) const {
     rotation[i] = to_matrix(state.orientation[i]);
-    spin[i] = spin_of(rotation[i], scene.inertia[i], state.angular_momentum[i]);
+    spin[i] = scene.is_wall(i) ? state.angular_momentum[i]
+                               : spin_of(rotation[i], scene.inertia[i], state.angular_momentum[i]);
   }
 };
 
@@ -119,9 +120,9 @@ int group_of(SceneView const& scene, Side const& side, int networks) {
 }  // namespace
 
 void compute_kinematics(Queue const& queue, SceneView const& scene, StateView const& state, Kinematics& kinematics) {
-  kinematics.rotation.resize(scene.bodies());
-  kinematics.spin.resize(scene.bodies());
-  parallel_for(queue, "integrate/kinematics", scene.bodies(),
+  kinematics.rotation.resize(scene.solids());
+  kinematics.spin.resize(scene.solids());
+  parallel_for(queue, "integrate/kinematics", scene.solids(),
                KinematicsOfBody{scene, state, kinematics.rotation, kinematics.spin}, 512);
 }
 

@@ -43,7 +43,7 @@ struct NodeLists {
   std::vector<Side> side;          // in the groups of QueryBatch by their partner; by pair within
   std::vector<int> group;          // first side of each group, end (query_groups + 1)
   std::vector<int> side_of_pair;   // [2 pair + (0: nodes of a | 1: nodes of b)]; -1: that side carries no nodes
-  std::vector<RelativePose> pose;  // at the last step (n_sides)
+  std::vector<RelativePose> pose;  // at the last step; of a wall's nodes: that of the grain they meet (n_sides)
   std::vector<double> travelled;   // bound on the way of the carrier's points past the partner since the list was made,
                                    // summed over steps [m] (n_sides)
   std::vector<double> margin;      // way the list covers [m]; negative: never built (n_sides)

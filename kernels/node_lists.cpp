@@ -27,6 +27,12 @@ SCREE_HD RelativePose relative_pose(SceneView const& scene, StateView const& sta
           Quat{r.w, -r.x, -r.y, -r.z} * q};
 }
 
+// The body of a side whose motion past the other the list follows: the carrier, but of a wall and a grain the grain. A
+// wall's nodes are where they are, and the grain's zero set has moved no further than its ball.
+SCREE_HD Side moving_part(SceneView const& scene, Side const& side) {
+  return scene.is_wall(side.carrier) ? Side{side.pair, side.partner, side.carrier} : side;
+}
+
 // How far any point within `radius` of the carrier's centroid has moved in the partner's frame since `from` [m].
 SCREE_HD double motion_bound(RelativePose const& from, RelativePose const& to, double radius) {
   Quat const f = from.orientation;
@@ -60,14 +66,16 @@ struct MarkStale {
   Span<int> stale;
 
   SCREE_HD void operator()(int s) const {
-    ShapeRecord const& shape = scene.shape_record(side[s].carrier);
-    double const d = scene.diameter[side[s].carrier], radius = shape.bounding_radius * d;
-    RelativePose const now = relative_pose(scene, state, kinematics, side[s]);
+    Side const moving = moving_part(scene, side[s]);
+    double const radius = scene.shape_record(moving.carrier).bounding_radius * scene.diameter[moving.carrier];
+    RelativePose const now = relative_pose(scene, state, kinematics, moving);
     travelled[s] += motion_bound(pose[s], now, radius);
     pose[s] = now;
     stale[s] = options.brute_force || margin[s] < 0 || travelled[s] > margin[s];
     if (!stale[s]) return;
-    double const wanted = steps_a_skin * options.time_step * motion_rate(state, kinematics, side[s], radius);
+    ShapeRecord const& shape = scene.shape_record(side[s].carrier);
+    double const d = scene.diameter[side[s].carrier];
+    double const wanted = steps_a_skin * options.time_step * motion_rate(state, kinematics, moving, radius);
     double const least = least_skin * shape.node_spacing * d, most = most_skin * shape.node_spacing * d;
     skin[s] = wanted < least ? least : (wanted > most ? most : wanted);
     travelled[s] = 0;

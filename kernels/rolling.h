@@ -25,6 +25,10 @@ SCREE_HD inline void resist_rolling(SceneView const& scene, KinematicsView const
   Vec3 w;
   for (int side = 0; side < (pair.with_plane() ? 1 : 2); ++side) {
     int const body = side == 0 ? pair.a : pair.b;
+    if (scene.is_wall(body)) {  // it turns as it is told
+      w += kinematics.spin[body] * -1.0;
+      continue;
+    }
     Vec3 const inertia = scene.inertia[body];
     double smallest = inertia.x < inertia.y ? inertia.x : inertia.y;
     smallest = inertia.z < smallest ? inertia.z : smallest;

@@ -101,7 +101,7 @@ struct MeshOf {
         all.mesh_node.subspan(shape.first_mesh_node, shape.mesh_nodes),
         {all.mesh_corner.data + 3 * triangle, 3 * shape.triangles},
         {all.mesh_normal.data + normals_per_triangle * triangle, normals_per_triangle * shape.triangles}};
-    return mesh_distance(mesh, x, gradient);
+    return shape.half_wall > 0 ? sheet_distance(mesh, shape.half_wall, x, gradient) : mesh_distance(mesh, x, gradient);
   }
 };
 

@@ -1,4 +1,4 @@
-// sphere_contacts.cpp: spheres against spheres and planes in closed form: one contact, no nodes, no network.
+// sphere_contacts.cpp: spheres against spheres and smooth walls in closed form: one contact, no nodes, no network.
 // SPDX-License-Identifier: Apache-2.0
 #include "kernels/base/parallel.h"
 #include "kernels/contact_laws.h"
@@ -26,6 +26,14 @@ struct SpherePair {
     return scene.shape_record(body).analytic.half_size.x * scene.diameter[body];
   }
 
+  // The gap between a sphere and a wall with curvatures c1, c2 opens as x^2 / (2 R1) + y^2 / (2 R2) with
+  // 1/R1 = 1/r + c1; the law's integral over it is that of a sphere with R = sqrt(R1 R2).
+  SCREE_HD static double radius_against(double r, Curvatures c) {
+    double const least = 1e-3 / r;  // a sphere that nearly fits its bore: the closed form ends here
+    double const first = 1 / r + c.first, second = 1 / r + c.second;
+    return 1 / std::sqrt((first > least ? first : least) * (second > least ? second : least));
+  }
+
   SCREE_HD void operator()(int k) const {
     if (!closed_form[k]) return;
     Pair const p = pair[k];
@@ -41,6 +49,13 @@ struct SpherePair {
       n = plane.normal;
       overlap = ra - dot(n, xa - plane.point);
       effective = ra;
+    } else if (scene.is_wall(p.b)) {
+      Mat3 const& rotation = kinematics.rotation[p.b];
+      Vec3 const local = transposed_times(rotation, xa - state.position[p.b]);
+      Vec3 gradient;
+      overlap = ra + signed_distance(scene.shape_record(p.b).analytic, local, &gradient);
+      n = rotation * -gradient;
+      effective = radius_against(ra, wall_curvatures(scene.shape_record(p.b).analytic, local));
     } else {
       double const rb = radius(p.b);
       Vec3 const gap = xa - state.position[p.b];
@@ -56,8 +71,9 @@ struct SpherePair {
       return;
     }
     SphereLaw const law{law_at_radius(parameters.normal, effective), effective};
-    // The contact point lies half way into the overlap; on a plane, on the plane.
-    Vec3 const x = p.with_plane() ? xa - n * (ra - overlap) : state.position[p.b] + n * reach_b;
+    // The contact point lies half way into the overlap; on a wall, on the wall.
+    bool const wall = p.with_plane() || scene.is_wall(p.b);
+    Vec3 const x = wall ? xa - n * (ra - overlap) : state.position[p.b] + n * reach_b;
     double adhesive_stiffness = 0;
     if (parameters.cohesion.traction > 0) {
       double const girth = 2 * SphereLaw::pi * effective;

@@ -33,10 +33,10 @@ SCREE_HD inline ContactParameters const& contact_parameters(SceneView const& sce
   return scene.contact[scene.material_of[pair.a] * scene.materials + mb];
 }
 
-// R* of the equal-volume spheres of a pair [m]; a plane is flat.
+// R* of the equal-volume spheres of a pair [m]; a wall counts as flat.
 SCREE_HD inline double effective_radius(SceneView const& scene, Pair const& pair) {
   double const ra = 0.5 * scene.diameter[pair.a];
-  if (pair.with_plane()) return ra;
+  if (pair.with_plane() || scene.is_wall(pair.b)) return ra;
   double const rb = 0.5 * scene.diameter[pair.b];
   return ra * rb / (ra + rb);
 }

@@ -31,6 +31,7 @@ struct ShapeRecord {
   std::size_t first_value = 0;                  // ... its first value
   int first_mesh_node = 0, mesh_nodes = 0;      // mesh [d]
   int first_triangle = 0, triangles = 0;        // ... of its corners and normals
+  double half_wall = 0;                         // > 0: the mesh is a sheet, solid this far on both sides [d]
   double bounding_radius = 0.5;                 // of the zero set about the centroid [d]
   Box box;                                      // of the zero set in the body frame [d]
   double lipschitz = 1;                         // upper bound of |grad phi| outside the solid
@@ -57,6 +58,9 @@ struct PlaneRecord {
   int wall = 0;  // index of the wall in the case
 };
 
+// Walls other than planes at rest are bodies of infinite mass behind the grains in every array of bodies, with a
+// diameter of 1 m: their lengths are in m, their pose is prescribed (core/wall_motion.h), their solid may be unbounded.
+
 // Parameters of one material pair.
 struct ContactParameters {
   PressureLaw normal;          // hertz: modulus E* / pi [Pa], see law_at_radius; modulus 0: no law was given
@@ -74,20 +78,23 @@ struct SceneView {
   Span<const ShapeRecord> shape;
   NodesView nodes;
   SdfDataView sdf;
-  Span<const int> shape_of;               // (n_bodies)
-  Span<const int> material_of;            // (n_bodies)
-  Span<const double> diameter;            // of the equal-volume sphere [m] (n_bodies)
-  Span<const double> mass;                // [kg] (n_bodies)
-  Span<const Vec3> inertia;               // principal, body frame [kg m2] (n_bodies)
+  Span<const int> shape_of;               // (n_solids)
+  Span<const int> material_of;            // (n_solids)
+  Span<const double> diameter;            // of the equal-volume sphere [m]; walls: 1 (n_solids)
+  Span<const double> mass;                // [kg]; walls: infinite (n_solids)
+  Span<const Vec3> inertia;               // principal, body frame [kg m2]; walls: infinite (n_solids)
   Span<const PlaneRecord> plane;          // (n_planes)
   Span<const ContactParameters> contact;  // [material_a * materials + material_b]
   int materials = 0;
+  int walls = 0;          // bodies of infinite mass, the last of the solids
   bool friction = false;  // some pair has friction: history exists
   // Cohesion of any pair: 0 without it. Outside a surface nothing else looks at phi beyond its sign.
   double cohesion_reach = 0;   // largest [m], as phi measures it
   double cohesion_margin = 0;  // ... as the world does: |grad phi| of a shape may be below 1
 
-  SCREE_HD int bodies() const { return shape_of.size(); }
+  SCREE_HD int solids() const { return shape_of.size(); }          // grains, then walls
+  SCREE_HD int bodies() const { return shape_of.size() - walls; }  // grains
+  SCREE_HD bool is_wall(int body) const { return body >= bodies(); }
   SCREE_HD ShapeRecord const& shape_record(int body) const { return shape[shape_of[body]]; }
 };
 
@@ -95,10 +102,10 @@ struct SceneView {
 enum class Activity : unsigned char { pending, active, deleted };
 
 struct StateView {
-  Span<Vec3> position;            // of the centroid [m] (n_bodies)
-  Span<Quat> orientation;         // body -> world (n_bodies)
-  Span<Vec3> velocity;            // [m/s] (n_bodies)
-  Span<Vec3> angular_momentum;    // about the centroid, world frame [kg m2/s] (n_bodies)
+  Span<Vec3> position;            // of the centroid [m] (n_solids)
+  Span<Quat> orientation;         // body -> world (n_solids)
+  Span<Vec3> velocity;            // [m/s] (n_solids)
+  Span<Vec3> angular_momentum;    // about the centroid, world frame [kg m2/s]; walls: spin [rad/s] (n_solids)
   Span<const Activity> activity;  // of the bodies that can come or go, from 0 on; the others are active
 
   SCREE_HD bool active(int i) const { return i >= activity.size() || activity[i] == Activity::active; }

@@ -117,10 +117,9 @@ Shape from_numbers(std::string const& spec, AnalyticKind kind, std::vector<doubl
     case AnalyticKind::box:
       want(v.size() == 3, "three edges");
       return make_box({v[0], v[1], v[2]});
-    case AnalyticKind::plane:
-      break;
+    default:
+      refuse(spec, "it is a wall, not a grain");
   }
-  refuse(spec, "it is not a grain");
 }
 
 }  // namespace

@@ -81,7 +81,20 @@ struct PseudoNormals {
   std::vector<Vec3> face, vertex;
   std::unordered_map<std::uint64_t, Vec3> edge;
 
-  explicit PseudoNormals(TriangleMesh const& mesh) : vertex(mesh.vertex.size()) {
+  PseudoNormals(TriangleMesh const& mesh, MeshBorder border) : vertex(mesh.vertex.size()) {
+    sum(mesh);
+    if (border == MeshBorder::open) clear_borders(mesh);
+  }
+
+  void clear_borders(TriangleMesh const& mesh) {
+    std::unordered_map<std::uint64_t, int> uses;
+    for (auto const& t : mesh.triangle)
+      for (int k = 0; k < 3; ++k) ++uses[edge_key(t[k], t[(k + 1) % 3])];
+    for (auto const& [key, n] : uses)
+      if (n == 1) edge[key] = vertex[key >> 32] = vertex[key & 0xffffffff] = {};
+  }
+
+  void sum(TriangleMesh const& mesh) {
     for (auto const& t : mesh.triangle) {
       Vec3 const p[3] = {mesh.vertex[t[0]], mesh.vertex[t[1]], mesh.vertex[t[2]]};
       Vec3 const n = cross(p[1] - p[0], p[2] - p[0]);
@@ -110,10 +123,10 @@ void require_sound(TriangleMesh const& mesh) {
 
 }  // namespace
 
-MeshTree::MeshTree(TriangleMesh mesh) : mesh_(std::move(mesh)) {
+MeshTree::MeshTree(TriangleMesh mesh, MeshBorder border) : mesh_(std::move(mesh)) {
   require_sound(mesh_);
   TreeBuilder const tree(mesh_, node_);
-  PseudoNormals const normals(mesh_);
+  PseudoNormals const normals(mesh_, border);
   corner_.reserve(3 * mesh_.triangle.size());
   normal_.reserve(std::size_t(normals_per_triangle) * mesh_.triangle.size());
   for (int i : tree.order()) {

@@ -113,7 +113,7 @@ std::vector<std::string> grid_problems(SdfGrid const& g) {
 void add_analytic_problems(Shape const& s, std::vector<std::string>& found) {
   AnalyticSdf const& a = s.analytic;
   if (!positive(a.half_size)) found.push_back("half_size must be finite and positive");
-  if (a.kind == AnalyticKind::plane) found.push_back("a plane is not a grain");
+  if (a.kind > AnalyticKind::box) found.push_back("a wall is not a grain");
   bool const exponents_ok =
       a.exponent_ns >= 0.1 && a.exponent_ns <= 1.9 && a.exponent_ew >= 0.1 && a.exponent_ew <= 1.9;
   if (a.kind == AnalyticKind::superellipsoid && !exponents_ok) found.push_back("an exponent is outside 0.1..1.9");

@@ -84,6 +84,14 @@ SCREE_HD inline double signed_distance(AnalyticSdf const& shape, Vec3 x, Vec3* g
     case AnalyticKind::plane:
       if (gradient) *gradient = {0, 0, -1};
       return -x.z;
+    case AnalyticKind::cylinder:
+      return detail::cylinder_distance(shape.half_size, x, gradient);
+    case AnalyticKind::bore:
+      return detail::bore_distance(shape.half_size, x, gradient);
+    case AnalyticKind::capsule:
+      return detail::capsule_distance(shape.half_size, x, gradient);
+    case AnalyticKind::funnel:
+      return detail::funnel_distance(shape.half_size, shape.half_wall, x, gradient);
   }
   return -1e300;  // unreachable: every kind is listed; device code cannot throw
 }
@@ -109,9 +117,36 @@ SCREE_HD inline double support(AnalyticSdf const& shape, Vec3 n, Vec3* point) {
       break;
     case AnalyticKind::plane:
       return n.z > 0 ? 0 : 1e300;
+    case AnalyticKind::bore:
+      return 1e300;
+    case AnalyticKind::cylinder:
+      reached = detail::on_axis(n, {a.x, a.z});
+      break;
+    case AnalyticKind::capsule:
+      reached = Vec3{0, 0, n.z < 0 ? -a.z : a.z} + n * a.x;
+      break;
+    case AnalyticKind::funnel: {
+      Vec3 const low = detail::on_axis({n.x, n.y, -1}, {a.x, a.z}), high = detail::on_axis({n.x, n.y, 1}, {a.y, a.z});
+      reached = (dot(n, low) > dot(n, high) ? low : high) + n * shape.half_wall;
+      break;
+    }
   }
   if (point) *point = reached;
   return dot(n, reached);
+}
+
+SCREE_HD inline Curvatures wall_curvatures(AnalyticSdf const& shape, Vec3 x) {
+  Vec3 const a = shape.half_size;
+  switch (shape.kind) {
+    case AnalyticKind::bore:
+      return {-1 / a.x, 0};
+    case AnalyticKind::capsule:
+      return {1 / a.x, std::fabs(x.z) > a.z ? 1 / a.x : 0};
+    case AnalyticKind::funnel:
+      return detail::funnel_curvatures(a, shape.half_wall, x);
+    default:
+      return {};
+  }
 }
 
 }  // namespace scree

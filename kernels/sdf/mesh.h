@@ -1,4 +1,4 @@
-// mesh.h: signed distance to a closed triangle mesh through a bounding volume hierarchy in flat arrays, in double.
+// mesh.h: signed distance to a triangle mesh through a bounding volume hierarchy in flat arrays, in double.
 // phi > 0 inside; the gradient has length 1 and points inwards. The arrays are built on the host: shapes/mesh_tree.h.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -117,17 +117,29 @@ SCREE_HD inline MeshHit closest_on_mesh(MeshSdf const& mesh, Vec3 x) {
 // phi and, unless null, its gradient at x, in the unit of the mesh. The sign comes from the pseudo-normal of the
 // feature that the closest point lies on: right for any closed, oriented mesh, convex or not. On the medial axis the
 // gradient is that of one of the closest points; nearer to the surface than 1e-10 of the mesh it is the pseudo-normal.
+// An open surface is solid behind its faces; a point whose closest one lies on a border is outside (MeshTree).
 // Cost near the surface: 3 us for 17,000 triangles (one core of the development machine).
 SCREE_HD inline double mesh_distance(MeshSdf const& mesh, Vec3 x, Vec3* gradient) {
   detail::MeshHit const hit = detail::closest_on_mesh(mesh, x);
   Vec3 const gap = x - hit.point, out = mesh.normal[normals_per_triangle * std::size_t(hit.triangle) + hit.feature];
   double const distance = std::sqrt(hit.distance2);
-  bool const outside = dot(gap, out) > 0;
+  bool const outside = !(dot(gap, out) < 0);  // a border without a normal has no inside
   if (gradient) {
     double const tiny = 1e-10 * norm(mesh.node[0].max - mesh.node[0].min);
     *gradient = distance > tiny ? gap * ((outside ? -1 : 1) / distance) : normalized(-out);
   }
   return outside ? -distance : distance;
+}
+
+// The same for a sheet: everything within half_wall of the surface is solid, whichever way its triangles face. Borders
+// are round.
+SCREE_HD inline double sheet_distance(MeshSdf const& mesh, double half_wall, Vec3 x, Vec3* gradient) {
+  detail::MeshHit const hit = detail::closest_on_mesh(mesh, x);
+  double const distance = std::sqrt(hit.distance2);
+  if (gradient)
+    *gradient = distance > 0 ? (x - hit.point) * (-1 / distance)
+                             : normalized(-mesh.normal[normals_per_triangle * std::size_t(hit.triangle)]);
+  return half_wall - distance;
 }
 
 }  // namespace scree

@@ -330,10 +330,6 @@ TEST_F(CaseFile, BuiltInShapesAreChecked) {
 }
 
 TEST_F(CaseFile, UnsupportedKeysAreRefusedByName) {
-  expect_one(refused(with(minimal, "point = [0, 0, 0]", "point = [0, 0, 0]\nmotion = { kind = \"rotation\" }")),
-             {"case.toml:26: wall.floor.motion: is not supported in this version", "supported here:"});
-  expect_one(refused(with(minimal, "kind = \"plane\"", "kind = \"cylinder\"")),
-             {"wall.floor.kind: 'cylinder' is not supported in this version; supported: plane, box"});
   expect_one(refused(with(minimal, "count = 5", "count = 5\ngroup = \"a\"")), {"group: is not supported"});
   expect_one(refused(with(minimal, "name = \"drop\"", "name = \"drop\"\nreplicas = 3")),
              {"case.replicas: is not supported"});
@@ -569,8 +565,27 @@ Case unusual_case(fs::path const& library) {
   c.grains[4] = {"five", "steel", {}, Evaluator::net, 1000, 1, 0.1, {}};
   c.grains[4].interpolate = InterpolateCase{"grains", "ballast/0", "sand/3", 0.25, 0.75};
   for (int i : {3, 4}) c.grains[i].insert = c.grains[2].insert;
-  c.wall = {{"floor", "steel", WallKind::plane, {1, 2, 3}, {0, 0.6, 0.8}, {}, {}, {}},
-            {"bin", "rock", WallKind::box, {}, {0, 0, 1}, {-1, -2, -3}, {1, 2, 3}, {"+z", "-x"}}};
+  c.wall.resize(8);
+  char const* const wall_name[8] = {"floor", "bin", "block", "drum", "rod", "hopper", "blade", "hill"};
+  for (int i = 0; i < 8; ++i) c.wall[i].name = wall_name[i], c.wall[i].material = i % 2 ? "rock" : "steel";
+  c.wall[0].point = {1, 2, 3}, c.wall[0].normal = {0, 0.6, 0.8};
+  for (int i : {1, 2}) c.wall[i].kind = WallKind::box, c.wall[i].min = {-1, -2, -3}, c.wall[i].max = {1, 2, 3};
+  c.wall[1].open = {"+z", "-x"};
+  c.wall[2].inside = false;
+  c.wall[3].kind = WallKind::cylinder, c.wall[3].radius = 0.7, c.wall[3].open = {"to"};
+  c.wall[4].kind = WallKind::capsule, c.wall[4].radius = 0.1;
+  c.wall[5].kind = WallKind::cone, c.wall[5].radius_from = 0.1, c.wall[5].radius_to = 2, c.wall[5].thickness = 0.03;
+  for (int i : {3, 4, 5}) c.wall[i].from = {1, 0, 0.1}, c.wall[i].to = {3, 4, 5};
+  c.wall[6].kind = WallKind::mesh, c.wall[6].thickness = 0.01, c.wall[6].scale = 1e-3, c.wall[6].shift = {1, 2, 0.3};
+  c.wall[7].kind = WallKind::terrain;
+  for (int i : {6, 7}) c.wall[i].file = library;  // any file that exists: it is not opened
+  MotionCase turn, table, slide;
+  turn.axis = {0, 1, 0.5}, turn.through = {1, 2, 3}, turn.rate = -0.3, turn.start = 0.5, turn.end = 9;
+  table = turn;
+  table.time = {0, 1, 2.5}, table.rates = {1, 0, 0.1}, table.rate = 0, table.start = 0, table.end = MotionCase{}.end;
+  slide.kind = MotionKind::translation;
+  slide.time = {0, 0.1}, slide.velocities = {{1, 2, 3}, {0, 0, 0.5}};
+  c.wall[3].motion = turn, c.wall[4].motion = table, c.wall[6].motion = slide;
   c.output = {0.125, true};
   c.checkpoint = CheckpointCase{0.75, 5};
   c.limits = {0.03, 0.6, 1.9, 2e-3};
@@ -617,6 +632,18 @@ void expect_same(WallCase const& a, WallCase const& b) {
   EXPECT_EQ(a.normal, b.normal);
   EXPECT_EQ(a.min, b.min);
   EXPECT_EQ(a.max, b.max);
+  EXPECT_EQ(std::tie(a.inside, a.radius, a.radius_from, a.radius_to, a.thickness, a.file, a.scale),
+            std::tie(b.inside, b.radius, b.radius_from, b.radius_to, b.thickness, b.file, b.scale));
+  EXPECT_EQ(a.from, b.from);
+  EXPECT_EQ(a.to, b.to);
+  EXPECT_EQ(a.shift, b.shift);
+  ASSERT_EQ(a.motion.has_value(), b.motion.has_value());
+  if (!a.motion) return;
+  MotionCase const &m = *a.motion, &n = *b.motion;
+  EXPECT_EQ(std::tie(m.kind, m.rate, m.start, m.end, m.time, m.rates, m.velocities),
+            std::tie(n.kind, n.rate, n.start, n.end, n.time, n.rates, n.velocities));
+  EXPECT_EQ(m.axis, n.axis);
+  EXPECT_EQ(m.through, n.through);
 }
 
 template <class T>

@@ -1,0 +1,103 @@
+// terrain_file.cpp: see terrain_file.h.
+// SPDX-License-Identifier: Apache-2.0
+#include "shapes/terrain_file.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "shapes/text_lines.h"
+
+namespace scree {
+namespace {
+
+struct Grid {
+  int columns = 0, rows = 0;
+  double cell = 0, no_data = -9999;
+  std::vector<double> value;  // rows from north to south, as in the file
+};
+
+// The one header word this line may be, in lower case; empty: a line of values.
+std::string header_word(std::string_view word) {
+  std::string lower(word);
+  for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  for (char const* known :
+       {"ncols", "nrows", "cellsize", "nodata_value", "xllcorner", "yllcorner", "xllcenter", "yllcenter"})
+    if (lower == known) return lower;
+  return {};
+}
+
+void read_header(std::filesystem::path const& file, int line, std::string const& word, double value, Grid& grid) {
+  auto const whole = [&](int& out) {
+    if (!(value >= 2 && value <= 1e6) || value != std::floor(value))
+      fail_file(file, line, word + " must be a whole number from 2 to 1,000,000");
+    out = static_cast<int>(value);
+  };
+  if (word == "ncols") whole(grid.columns);
+  if (word == "nrows") whole(grid.rows);
+  if (word == "nodata_value") grid.no_data = value;
+  if (word != "cellsize") return;
+  if (!(value > 0)) fail_file(file, line, "cellsize must be above 0");
+  grid.cell = value;
+}
+
+Grid read_grid(std::filesystem::path const& file) {
+  Grid grid;
+  std::string const text = read_bytes(file);
+  int last = 1;
+  for_each_line(text, [&](int line, std::vector<std::string_view> const& word) {
+    last = line;
+    if (std::string const key = header_word(word[0]); !key.empty()) {
+      if (word.size() != 2) fail_file(file, line, key + " takes one number");
+      if (!grid.value.empty()) fail_file(file, line, key + " stands behind the first values");
+      read_header(file, line, key, read_number(file, line, word[1]), grid);
+      return;
+    }
+    if (grid.columns == 0 || grid.rows == 0 || grid.cell == 0)
+      fail_file(file, line, "values before ncols, nrows and cellsize were given: is it an ESRI ASCII grid?");
+    for (std::string_view const w : word) grid.value.push_back(read_number(file, line, w));
+    if (grid.value.size() > std::size_t(grid.columns) * grid.rows)
+      fail_file(file, line, "more values than ncols times nrows");
+  });
+  if (grid.columns == 0 || grid.rows == 0 || grid.cell == 0)
+    fail_file(file, "ncols, nrows or cellsize is missing: is it an ESRI ASCII grid?");
+  if (std::size_t const wanted = std::size_t(grid.columns) * grid.rows; grid.value.size() != wanted)
+    fail_file(file, last,
+              std::to_string(grid.value.size()) + " values, but ncols times nrows are " + std::to_string(wanted));
+  return grid;
+}
+
+}  // namespace
+
+TriangleMesh read_terrain(std::filesystem::path const& file) {
+  Grid const grid = read_grid(file);
+  TriangleMesh mesh;
+  std::vector<int> vertex(grid.value.size(), -1);
+  auto const at = [&](int column, int row) {  // row 0 is the southernmost
+    return std::size_t(grid.rows - 1 - row) * grid.columns + column;
+  };
+  auto const has = [&](std::size_t i) { return grid.value[i] != grid.no_data; };
+  for (int r = 0; r < grid.rows; ++r)
+    for (int c = 0; c < grid.columns; ++c)
+      if (std::size_t const i = at(c, r); has(i)) {
+        vertex[i] = static_cast<int>(mesh.vertex.size());
+        mesh.vertex.push_back({(c + 0.5) * grid.cell, (r + 0.5) * grid.cell, grid.value[i]});
+      }
+  for (int r = 0; r + 1 < grid.rows; ++r)
+    for (int c = 0; c + 1 < grid.columns; ++c) {
+      std::size_t const sw = at(c, r), se = at(c + 1, r), nw = at(c, r + 1), ne = at(c + 1, r + 1);
+      bool const south = has(sw) && has(se), north = has(nw) && has(ne);
+      if (!south || !north) continue;
+      int const a = vertex[sw], b = vertex[se], d = vertex[nw], e = vertex[ne];
+      if (std::fabs(grid.value[sw] - grid.value[ne]) <= std::fabs(grid.value[se] - grid.value[nw]))
+        mesh.triangle.insert(mesh.triangle.end(), {{a, b, e}, {a, e, d}});
+      else
+        mesh.triangle.insert(mesh.triangle.end(), {{a, b, d}, {b, e, d}});
+    }
+  if (mesh.triangle.empty()) fail_file(file, "no four neighbouring values have data: there is no surface");
+  return mesh;
+}
+
+}  // namespace scree

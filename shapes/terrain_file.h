@@ -1,0 +1,18 @@
+// terrain_file.h: elevation grids in the ESRI ASCII format as triangle meshes.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+
+#include "shapes/triangle_mesh.h"
+
+namespace scree {
+
+// Every value is a vertex in the middle of its cell; x and y count from the lower left corner of the grid (its place on
+// the map, often millions of metres, would cost digits), z is the elevation, all in the file's unit. Four neighbours
+// make two triangles that face up, cut along the diagonal that is nearer to level; cells without data (NODATA_value)
+// leave holes. Throws std::runtime_error "<file>:<line>: ..." for anything that is not such a grid, and for one without
+// a whole cell.
+TriangleMesh read_terrain(std::filesystem::path const& file);
+
+}  // namespace scree
