@@ -34,6 +34,11 @@ struct SpherePair {
     return 1 / std::sqrt((first > least ? first : least) * (second > least ? second : least));
   }
 
+  // A normal force has no lever arm about a sphere's centre, but it may have one about a wall's.
+  SCREE_HD void turn_wall(Pair p, Vec3 x, PairWrench& w) const {
+    if (!p.with_plane() && scene.is_wall(p.b)) w.torque_b = -cross(x - state.position[p.b], w.force_on_a);
+  }
+
   SCREE_HD void operator()(int k) const {
     if (!closed_form[k]) return;
     Pair const p = pair[k];
@@ -81,6 +86,7 @@ struct SpherePair {
       out.energy_normal = girth * parameters.cohesion.energy_integral(overlap);
       out.active = 1;
       out.stiffness = adhesive_stiffness = -girth * parameters.cohesion.pressure(overlap);
+      turn_wall(p, x, out.elastic);
       if (!(overlap > 0)) {  // adhesion does not damp, and friction lives on the force of the law
         out.arm2_a = norm2(x - xa);
         out.arm2_b = p.with_plane() ? 0 : norm2(x - state.position[p.b]);
@@ -97,6 +103,8 @@ struct SpherePair {
     Vec3 const arm_a = x - xa, arm_b = p.with_plane() ? Vec3{} : x - state.position[p.b];
     out.elastic.force_on_a += n * force;
     out.damping.force_on_a = n * (total - force);
+    turn_wall(p, x, out.elastic);
+    turn_wall(p, x, out.damping);
     out.energy_normal += law.energy(overlap);
     out.overlap = overlap;
     out.active = 1;

@@ -400,5 +400,24 @@ TEST_F(Walls, OpenSurfaceNeedsItsThickness) {
   EXPECT_GT(s.impl().scene.shape.back().nodes, 100);
 }
 
+// A lid that tips under a sphere lifts it: the normal force has a lever arm about the hinge, not about the sphere.
+TEST(WallMotion, ATippingPlanesWorkOnASphereIsInTheLedger) {
+  Case c = rock_case();
+  c.gravity = Vec3{0, 0, -9.81};
+  c.contact[0].damping_ratio = 0.5;
+  c.grains = {grains_at("sphere", {{0.5, 0, 0.0495}})};
+  c.wall = {floor_at(0)};
+  MotionCase& tip = c.wall[0].motion.emplace();
+  tip.axis = {0, -1, 0};  // lifts +x
+  tip.rate = 0.5;
+  c.time.end = 0.2;
+  Simulation s(c, {});
+  while (s.step() == RunState::running) {
+  }
+  LedgerRow const row = s.ledger();
+  EXPECT_GT(row.wall_work, 2650 * 3.14159 / 6 * 1e-3 * 9.81 * 0.5 * std::sin(0.5 * 0.19));  // lifted by that much
+  EXPECT_LT(std::abs(row.residual), 1e-3 * row.moved);
+}
+
 }  // namespace
 }  // namespace scree
