@@ -10,6 +10,7 @@
 
 #include "core/case_check.h"
 #include "core/case_effects_text.h"
+#include "core/case_measure_text.h"
 #include "core/case_reader.h"
 #include "core/case_wall.h"
 #include "core/certificate_gate.h"
@@ -259,10 +260,11 @@ void read_case(CaseReader root, Case& out) {
   read_list(root, "contact", out.contact, read_contact);
   read_list(root, "grains", out.grains, read_grains);
   read_list(root, "wall", out.wall, read_wall);
+  read_list(root, "measure", out.measure, read_measure);
   if (auto output = root.table("output")) read_output(*output, out.output);
   if (auto checkpoint = root.table("checkpoint")) read_checkpoint(*checkpoint, out.checkpoint.emplace());
   if (auto limits = root.table("limits")) read_limits(*limits, out.limits);
-  root.unsupported({"relax", "replicas", "measure"});
+  root.unsupported({"relax", "replicas"});
   root.finish();
 }
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/case_effects.h"
+#include "core/case_measure.h"
 #include "kernels/base/vec.h"
 #include "kernels/contact_laws.h"
 #include "shapes/bake.h"
@@ -212,6 +213,7 @@ struct Case {
   std::vector<ContactCase> contact;
   std::vector<GrainsCase> grains;
   std::vector<WallCase> wall;
+  std::vector<MeasureCase> measure;
   OutputCase output;
   std::optional<CheckpointCase> checkpoint;
   LimitsCase limits;

@@ -14,6 +14,7 @@
 #include <set>
 
 #include "core/case_effects_text.h"
+#include "core/case_measure_text.h"
 #include "core/certificate_gate.h"
 #include "core/nearest_name.h"
 #include "core/sampled_grains.h"
@@ -358,6 +359,7 @@ std::vector<CaseProblem> Checker::run() {
   walls();
   touching_pairs();
   check_effects(c_, found_);
+  check_measures(c_, found_);
   rest();
   return std::move(found_);
 }
@@ -388,6 +390,7 @@ std::string key_by_name(Case const& c, std::string const& key) {
   if (list == "grains") name = name_at(c.grains, index);
   if (list == "wall") name = name_at(c.wall, index);
   if (list == "force") name = name_at(c.force, index);
+  if (list == "measure") name = name_at(c.measure, index);
   if (list == "delete") name = name_at(c.deletion, index);
   return name.empty() ? key : list + "." + name + key.substr(second);
 }

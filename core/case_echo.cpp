@@ -5,6 +5,7 @@
 
 #include "core/case.h"
 #include "core/case_effects_text.h"
+#include "core/case_measure_text.h"
 #include "core/case_wall.h"
 #include "core/certificate_gate.h"
 #include "core/sampled_grains.h"
@@ -158,6 +159,7 @@ std::string to_toml(Case const& c) {
   for (ContactCase const& k : c.contact) write_contact(out, k);
   for (GrainsCase const& g : c.grains) write_grains(out, g);
   for (WallCase const& w : c.wall) out += wall_to_toml(w);
+  out += measures_to_toml(c);
   out += fmt::format("\n[output]\nevery = {}  # [s]\nparaview = {}\n", c.output.every, c.output.paraview);
   if (c.checkpoint)
     out += fmt::format("\n[checkpoint]\nevery = {}  # [s]\nkeep = {}\n", c.checkpoint->every, c.checkpoint->keep);

@@ -41,6 +41,7 @@ Effects effects_of(Case const& c, Scene const& scene) {
   e.deletion = !c.deletion.empty();
   e.wall_motion =
       std::any_of(scene.wall.begin(), scene.wall.end(), [](WallBody const& w) { return w.motion.has_value(); });
+  e.measures = !c.measure.empty();
   e.settle = c.time.settle.has_value();
   e.settle_damping = e.settle && c.time.settle->damping > 0;
   return e;
@@ -71,6 +72,7 @@ std::vector<std::string> stages_of(Effects const& e) {
   add(e.settle_damping, "global_damping");
   add(e.deletion, "delete");
   add(true, "watch");
+  add(e.measures, "measure");
   return stages;
 }
 

@@ -30,6 +30,7 @@ struct Effects {
   bool global_damping = false;  // [damping], all the time
   bool insertion = false;       // over time
   bool deletion = false;
+  bool measures = false;        // [[measure]]
   bool settle = false;          // the settle schedule ...
   bool settle_damping = false;  // ... with a global damping that it switches
 };

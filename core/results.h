@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -56,6 +57,18 @@ struct LedgerRow {  // [J]; see core/energy.h
   double deleted = 0;                       // of bodies that were deleted
 };
 
+// A [[measure]] quantity over the run, see core/measurements.h. NaN: no value.
+struct MeasureSummary {
+  std::string name, unit;    // "measure.quantity"
+  bool windowed = false;     // the case gives a window: the mean is what counts, else the last value
+  std::int64_t samples = 0;  // in the window
+  double mean = std::numeric_limits<double>::quiet_NaN();
+  double spread = std::numeric_limits<double>::quiet_NaN();  // standard deviation of the samples
+  double last = std::numeric_limits<double>::quiet_NaN();
+
+  double value() const { return windowed ? mean : last; }
+};
+
 struct StageRow {
   std::string name;
   double seconds = 0;
@@ -71,6 +84,7 @@ class ResultsWriter {
   ~ResultsWriter();
   void write_frame(Frame const& frame);
   void write_ledger(LedgerRow const& row);
+  void write_measures(std::vector<MeasureSummary> const& measures);  // before finish(); none: nothing is written
   void finish(std::vector<StageRow> const& stages);
 
  private:
@@ -87,6 +101,7 @@ class ResultsReader {
   Frame frame(int index) const;  // negative: from the end
   std::vector<LedgerRow> ledger() const;
   std::vector<StageRow> stages() const;
+  std::vector<MeasureSummary> measures() const;  // empty without any, or when the run did not finish
 
  private:
   struct Data;

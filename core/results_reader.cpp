@@ -189,6 +189,25 @@ std::vector<LedgerRow> ResultsReader::ledger() const {
   });
 }
 
+std::vector<MeasureSummary> ResultsReader::measures() const {
+  return data_->guarded([&] {
+    std::vector<MeasureSummary> out;
+    if (!hdf5::has_group(data_->file, "/measures")) return out;
+    hdf5::Handle const group = hdf5::open_group(data_->file, "/measures");
+    std::vector<std::string> const name = results_hdf5::read_texts(group, "name");
+    std::vector<std::string> const unit = results_hdf5::read_texts(group, "unit");
+    auto const windowed = read_array<std::int64_t>(group, "windowed");
+    auto const samples = read_array<std::int64_t>(group, "samples");
+    auto const value = read_array<double>(group, "value", {3});
+    if (unit.size() != name.size() || windowed.size() != name.size() || samples.size() != name.size() ||
+        value.size() != 3 * name.size())
+      throw std::runtime_error("/measures: lengths differ");
+    for (std::size_t i = 0; i < name.size(); ++i)
+      out.push_back({name[i], unit[i], windowed[i] != 0, samples[i], value[3 * i], value[3 * i + 1], value[3 * i + 2]});
+    return out;
+  });
+}
+
 std::vector<StageRow> ResultsReader::stages() const {
   return data_->guarded([&] {
     std::vector<StageRow> rows;

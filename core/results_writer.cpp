@@ -170,6 +170,28 @@ void ResultsWriter::write_ledger(LedgerRow const& row) {
   });
 }
 
+void ResultsWriter::write_measures(std::vector<MeasureSummary> const& measures) {
+  if (measures.empty()) return;
+  data_->guarded([&] {
+    std::vector<std::string> name, unit;
+    std::vector<std::int64_t> windowed, samples;
+    std::vector<double> value;
+    for (MeasureSummary const& m : measures) {
+      name.push_back(m.name);
+      unit.push_back(m.unit);
+      windowed.push_back(m.windowed);
+      samples.push_back(m.samples);
+      value.insert(value.end(), {m.mean, m.spread, m.last});
+    }
+    hdf5::Handle const group = hdf5::create_group(data_->file, "/measures");
+    write_texts(group, "name", name);
+    write_texts(group, "unit", unit);
+    write_array(group, "windowed", windowed.data(), {measures.size()});
+    write_array(group, "samples", samples.data(), {measures.size()});
+    write_array(group, "value", value.data(), {measures.size(), 3});  // mean, spread, last
+  });
+}
+
 void ResultsWriter::finish(std::vector<StageRow> const& stages) {
   Data& d = *data_;
   d.guarded([&] {

@@ -64,6 +64,7 @@ Simulation::Impl::Impl(Case const& c_, SimulationOptions const& options_, Frame 
   report = watch(queue, scene, state, gravity_size(), work);
   state.initial_energy = mechanical_energy(make_ledger(scene, c.gravity, state, work));
   state.kinetic_peak = report.kinetic_total;
+  if (effects.measures) start_measurements(c, scene, work, state);
   profile.clear();  // the run's own steps are what is profiled
 }
 
@@ -99,6 +100,10 @@ RunState Simulation::Impl::step() {
   check_time_step();
   if (effects.settle) settle();
   if (run_state == RunState::running && state.time >= c.time.end * (1 - 1e-12)) run_state = RunState::ended;
+  if (effects.measures) {
+    ScopedTimer const timer(queue.profile, "measure/all", static_cast<int>(c.measure.size()));
+    take_measurements(c, scene, work, dt, run_state != RunState::running, state, measure_cache, measure_rows);
+  }
   if (run_state != RunState::running && effects.insertion) report_insertion(c, state, messages);
   if (run_state != RunState::running && effects.deletion) report_deletion(c, state, messages);
   return run_state;
@@ -198,6 +203,16 @@ std::string Simulation::phase() const {
 }
 
 LedgerRow Simulation::ledger() const { return make_ledger(impl_->scene, impl_->c.gravity, impl_->state, impl_->work); }
+
+std::vector<Quantity> Simulation::measure_quantities(int measure) const {
+  return quantities_of(impl_->c, impl_->scene, impl_->state, impl_->work, measure);
+}
+
+std::vector<MeasureRow> Simulation::measure_rows() { return std::exchange(impl_->measure_rows, {}); }
+
+std::vector<MeasureSummary> Simulation::measure_summary() const {
+  return summarise_measurements(impl_->c, impl_->scene, impl_->state, impl_->work);
+}
 
 std::vector<std::string> Simulation::messages() { return std::exchange(impl_->messages, {}); }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/case.h"
+#include "core/measurements.h"
 #include "core/results.h"
 #include "kernels/base/profile.h"
 
@@ -66,6 +67,9 @@ class Simulation {
   double largest_overlap() const;            // [d] at the nodes, last step
   double largest_kinetic_per_grain() const;  // [m g d] (with g = 9.81 where the case has no gravity), last step
   Profile const& profile() const;
+  std::vector<Quantity> measure_quantities(int measure) const;  // of [[measure]] entry `measure`
+  std::vector<MeasureRow> measure_rows();                       // samples taken since the last call
+  std::vector<MeasureSummary> measure_summary() const;          // empty without [[measure]]
   std::vector<std::string> messages();  // what happened since the last call (time step halved, lists grown ...)
 
   struct Impl;

@@ -27,6 +27,8 @@ struct Simulation::Impl {
   RunState run_state = RunState::running;
   std::vector<std::string> messages;
   bool warned_of_share = false;
+  MeasureCache measure_cache;
+  std::vector<MeasureRow> measure_rows;
 
   Impl(Case const& c_, SimulationOptions const& options_, Frame const* start);
   RunState step();

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "core/scene.h"
@@ -18,6 +19,22 @@ struct Insertion {
   double blocked_since = -1;  // [s]; -1: not blocked
   std::int64_t blocked_times = 0;
   double blocked_seconds = 0;  // of the times that are over
+};
+
+// Mean and spread of one quantity as it is sampled.
+struct Moments {
+  std::int64_t samples = 0;  // in the window of the measurement
+  double mean = 0;
+  double squares = 0;  // sum of squared differences to the mean
+  double last = std::numeric_limits<double>::quiet_NaN();
+};
+
+// What one [[measure]] entry keeps, see core/measurements.h.
+struct Measurement {
+  std::int64_t next = 1;       // the next sample is due at next x every
+  double last_time = 0;        // of the last sample [s]
+  std::vector<double> memory;  // of its kind
+  std::vector<Moments> moments;
 };
 
 struct State {
@@ -39,6 +56,7 @@ struct State {
   std::vector<Activity> activity;     // (n_bodies)
   std::vector<Insertion> insertion;   // (n_groups); empty without insertion over time
   std::vector<std::int64_t> deleted;  // bodies that left, by [[delete]] entry
+  std::vector<Measurement> measure;   // (n_measures)
   // Settle schedule.
   bool damped = false;
   double quiet_since = -1;  // [s]; -1: not quiet

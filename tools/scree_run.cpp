@@ -16,6 +16,7 @@
 #include "core/simulation.h"
 #include "tools/scree_commands.h"
 #include "tools/scree_folder.h"
+#include "tools/scree_measures.h"
 #include "tools/scree_report.h"
 
 namespace scree {
@@ -46,6 +47,7 @@ class Recorder {
   Recorder(OutputFolder const& folder, Case const& c, Simulation const& simulation)
       : results_(folder.file("results.h5"), simulation.results_header()),
         ledger_(folder.file("ledger.csv")),
+        measures_(folder, c, simulation),
         column_(results_layout::columns_with(simulation.results_header().ledger)),
         every_(c.output.every) {
     write_text(folder.file("case.effective.toml"), to_toml(c));
@@ -61,12 +63,15 @@ class Recorder {
     write(simulation);
   }
 
-  void write_if_due(Simulation const& s) {
+  void write_if_due(Simulation& s) {
+    measures_.write(s);
     if (s.time() + s.time_step() / 2 >= static_cast<double>(frames_) * every_) write(s);
   }
 
   // The last state, unless it was just written, and the seal.
-  void finish(Simulation const& s, std::vector<StageRow> const& stages) {
+  void finish(Simulation& s, std::vector<StageRow> const& stages) {
+    measures_.write(s);
+    results_.write_measures(s.measure_summary());
     if (last_step_ != s.steps()) write(s);
     if (paraview_) paraview_->finish();
     results_.finish(stages);
@@ -92,6 +97,7 @@ class Recorder {
 
   ResultsWriter results_;
   std::ofstream ledger_;
+  MeasureLog measures_;
   std::vector<results_layout::LedgerColumn> column_;  // of the ledger
   std::optional<ParaviewWriter> paraview_;
   double every_;  // [s]
@@ -146,8 +152,10 @@ void summarise(RunLog& log, OutputFolder const& folder, Case const& c, Simulatio
                     std::abs(row.residual) / row.moved, c.limits.ledger));
   log.say(fmt::format("largest overlap at the nodes {:.3f} % d, largest kinetic energy of a grain {:.2e} m g d",
                       100 * s.largest_overlap(), s.largest_kinetic_per_grain()));
+  if (!c.measure.empty()) log.say(measure_table(s.measure_summary()));
   log.say(fmt::format("results   {}", folder.file("results.h5").string()));
   log.say(fmt::format("ledger    {}", folder.file("ledger.csv").string()));
+  if (!c.measure.empty()) log.say(fmt::format("measures  {}", folder.file("measures.csv").string()));
   log.say(fmt::format("stages    {}", folder.file("stages.json").string()));
   if (c.output.paraview) log.say(fmt::format("ParaView  {}", (folder.file("paraview") / "scene.pvd").string()));
 }

@@ -13,6 +13,7 @@
 #include "shapes/file_container.h"
 #include "shapes/model_file.h"
 #include "tools/scree_commands.h"
+#include "tools/scree_measures.h"
 #include "tools/scree_report.h"
 
 namespace scree {
@@ -74,6 +75,7 @@ void describe_results(fs::path const& file, bool recover) {
   print_shapes(h.library);
   std::vector<LedgerRow> const ledger = reader.ledger();
   if (!ledger.empty()) fmt::print("{}", ledger_table(ledger.back()));
+  if (auto const measures = reader.measures(); !measures.empty()) fmt::print("{}", measure_table(measures));
   std::vector<StageRow> const stages = reader.stages();
   double seconds = 0;
   for (StageRow const& s : stages) seconds += s.seconds;

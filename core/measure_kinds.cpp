@@ -1,0 +1,78 @@
+// measure_kinds.cpp: see measure_kinds.h.
+// SPDX-License-Identifier: Apache-2.0
+#include "core/measure_kinds.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "core/measure_angles.h"
+#include "core/measure_contacts.h"
+#include "core/measure_flow.h"
+#include "core/measure_packing.h"
+#include "core/measure_walls.h"
+
+namespace scree {
+
+std::vector<MeasureKind> const& measure_kinds() {
+  // name, keys it needs, keys it may have, needs a region, quantities, sample, after every step, interval, check
+  static std::vector<MeasureKind> const table{
+      {"packing_fraction", {}, {"box", "cylinder", "slices", "points"}, true, packing_quantities, sample_packing},
+      {"coordination", {}, {"box", "cylinder"}, false, coordination_quantities, sample_coordination},
+      {"pile_angle",
+       {},
+       {"box", "cylinder", "through", "direction", "bin", "flank"},
+       false,
+       pile_quantities,
+       sample_pile},
+      {"surface_angle",
+       {},
+       {"wall", "axis", "through", "radius", "bin"},
+       false,
+       surface_quantities,
+       sample_surface,
+       nullptr,
+       false,
+       check_surface},
+      {"wall_torque",
+       {"wall"},
+       {"axis", "through"},
+       false,
+       torque_quantities,
+       sample_torque,
+       visit_torque,
+       true,
+       check_torque},
+      {"wall_force", {"wall"}, {}, false, wall_force_quantities, sample_wall_force, visit_wall_force, true},
+      {"discharge_rate",
+       {},
+       {"delete", "point", "normal", "radius"},
+       false,
+       discharge_quantities,
+       sample_discharge,
+       visit_discharge,
+       true,
+       check_discharge},
+  };
+  return table;
+}
+
+MeasureKind const* find_measure_kind(std::string const& name) {
+  for (MeasureKind const& k : measure_kinds())
+    if (k.name == name) return &k;
+  return nullptr;
+}
+
+MeasureKind const& measure_kind(std::string const& name) {
+  if (MeasureKind const* const kind = find_measure_kind(name)) return *kind;
+  throw std::logic_error("no measurement is called " + name);
+}
+
+Vec3 up_of(Case const& c) { return c.gravity && norm(*c.gravity) > 0 ? -normalized(*c.gravity) : Vec3{0, 0, 1}; }
+
+double largest_diameter(Scene const& scene) {
+  double largest = 0;
+  for (int i = 0; i < scene.bodies(); ++i) largest = std::max(largest, scene.diameter[i]);
+  return largest;
+}
+
+}  // namespace scree

@@ -1,0 +1,29 @@
+// scree_measures.h: what a run measured: measures.csv while it goes, a table at its end.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "core/simulation.h"
+#include "tools/scree_folder.h"
+
+namespace scree {
+
+// measures.csv: time, name, quantity, value, a line for every value of every sample. No file without [[measure]].
+class MeasureLog {
+ public:
+  MeasureLog(OutputFolder const& folder, Case const& c, Simulation const& simulation);  // throws std::system_error
+  void write(Simulation& simulation);  // the samples taken since the last call
+
+ private:
+  std::vector<std::string> prefix_;                // ",name," of each measure
+  std::vector<std::vector<Quantity>> quantities_;  // ... and what it gives
+  std::ofstream file_;
+};
+
+std::string measure_table(std::vector<MeasureSummary> const& measures);
+
+}  // namespace scree
