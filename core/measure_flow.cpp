@@ -2,6 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/measure_flow.h"
 
+#include <algorithm>
+
+#include "core/measure_region.h"
+
 namespace scree {
 namespace {
 
@@ -66,5 +70,38 @@ Values sample_discharge(MeasureView const&, Memory& memory) {
   memory[number_before] = memory[number];
   return out;
 }
+
+std::vector<Quantity> blockage_quantities(MeasureView const&) {
+  return {{"blocked", "-"}, {"count", "-"}, {"seconds", "s"}, {"longest", "s"}};
+}
+
+void visit_blockage(MeasureView const& view, double dt, Memory& memory) {
+  enum { last_flow, blocked, count, total, longest, sides_of_plane };
+  State const& state = view.state;
+  if (memory.empty()) {
+    memory.assign(sides_of_plane + view.scene.bodies(), 0);
+    memory[last_flow] = state.time - dt;
+  }
+  bool flows = state.time < view.measure.from;
+  each_crossing(view, memory, sides_of_plane, [&](int, double way) { flows = flows || way > 0; });
+  MeasureRegion const region(view.measure);
+  bool remains = false;
+  for (int i = 0; i < view.scene.bodies() && !remains; ++i)
+    remains = state.is_active(i) && memory[sides_of_plane + i] < 0 && region.contains(state.position[i]);
+  double const wait = state.time - memory[last_flow];
+  if (remains && !flows) {
+    memory[longest] = std::max(memory[longest], wait);
+    if (wait > *view.measure.longer_than) {
+      memory[total] += memory[blocked] > 0 ? dt : wait;
+      memory[count] += memory[blocked] > 0 ? 0 : 1;
+      memory[blocked] = 1;
+    }
+    return;
+  }
+  memory[blocked] = 0;
+  memory[last_flow] = state.time;
+}
+
+Values sample_blockage(MeasureView const&, Memory& memory) { return {memory.begin() + 1, memory.begin() + 5}; }
 
 }  // namespace scree

@@ -14,4 +14,11 @@ void visit_discharge(MeasureView const& view, double dt, Memory& memory);
 Values sample_discharge(MeasureView const& view, Memory& memory);
 std::string check_discharge(Case const& c, MeasureCase const& m);
 
+// Arching: no grain has passed the plane (as above) for longer than `longer_than` since the last one, or since `from`,
+// while grains remain before it (those of the region, if one is given). blocked: 1 now or 0; count of blockages;
+// seconds blocked, from the last passage on; longest wait for a grain [s], short ones too.
+std::vector<Quantity> blockage_quantities(MeasureView const& view);
+void visit_blockage(MeasureView const& view, double dt, Memory& memory);
+Values sample_blockage(MeasureView const& view, Memory& memory);
+
 }  // namespace scree

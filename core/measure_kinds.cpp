@@ -8,7 +8,9 @@
 #include "core/measure_angles.h"
 #include "core/measure_contacts.h"
 #include "core/measure_flow.h"
+#include "core/measure_motion.h"
 #include "core/measure_packing.h"
+#include "core/measure_stress.h"
 #include "core/measure_walls.h"
 
 namespace scree {
@@ -52,6 +54,26 @@ std::vector<MeasureKind> const& measure_kinds() {
        visit_discharge,
        true,
        check_discharge},
+      {"blockage",
+       {"point", "normal", "longer_than"},
+       {"radius", "box", "cylinder"},
+       false,
+       blockage_quantities,
+       sample_blockage,
+       visit_blockage},
+      {"stress", {}, {"box", "cylinder"}, true, stress_quantities, sample_stress},
+      {"force_chains", {}, {"box", "cylinder", "above", "contacts"}, false, chain_quantities, sample_chains},
+      {"trajectory", {"grains"}, {"index"}, false, trajectory_quantities, sample_trajectory},
+      {"velocity", {}, {"grains", "box", "cylinder"}, false, velocity_quantities, sample_velocity},
+      {"run_out",
+       {"direction"},
+       {"grains"},
+       false,
+       run_out_quantities,
+       sample_run_out,
+       visit_run_out,
+       false,
+       check_run_out},
   };
   return table;
 }

@@ -47,7 +47,8 @@ void take_measurements(Case const& c, Scene const& scene, Workspace const& work,
     if (!due && !extra) continue;
     if (due) own.next = static_cast<std::int64_t>(std::floor((state.time + dt / 2) / every)) + 1;
     own.last_time = state.time;
-    rows.push_back({static_cast<int>(k), state.time, kind.sample(view, own.memory)});
+    rows.push_back({static_cast<int>(k), state.time, kind.sample(view, own.memory),
+                    m.contacts ? contacts_of(view) : std::vector<ContactRow>{}});
     double const slack = dt / 2;  // samples stand at the nearest step
     bool const counts = state.time >= m.from - slack && (!m.until || state.time <= *m.until + slack);
     for (std::size_t q = 0; q < own.moments.size(); ++q) add(rows.back().value[q], counts, own.moments[q]);

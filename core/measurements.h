@@ -6,14 +6,16 @@
 #include <vector>
 
 #include "core/measure_kinds.h"
+#include "core/measure_stress.h"
 #include "core/results.h"
 
 namespace scree {
 
-struct MeasureRow {  // one sample
-  int measure = 0;   // of the case
-  double time = 0;   // [s]
-  Values value;      // in the order of quantities_of
+struct MeasureRow {                 // one sample
+  int measure = 0;                  // of the case
+  double time = 0;                  // [s]
+  Values value;                     // in the order of quantities_of
+  std::vector<ContactRow> contact;  // with the key `contacts`
 };
 
 std::vector<Quantity> quantities_of(Case const& c, Scene const& scene, State const& state, Workspace const& work,

@@ -80,6 +80,10 @@ void add_info(CLI::App& app, InfoArguments& a, std::function<int()>& chosen) {
   c->add_option("--threads", a.threads, "CPU threads of that measurement (default: all cores)")
       ->check(CLI::Range(1, 4096))
       ->needs(overlap);
+  CLI::Option* const figures = c->add_flag("--figures", a.figures, "What the run measured, as comma-separated values");
+  c->add_option("--expected", a.expected, "expected.toml: exit with 1 when the run does not reproduce its figures")
+      ->excludes(overlap)
+      ->excludes(figures);
   c->callback([&] { chosen = [&] { return info_command(a); }; });
 }
 

@@ -11,7 +11,7 @@ namespace scree {
 
 enum ExitCode : int {
   exit_ok = 0,
-  exit_watch = 1,         // a physics watch stopped the run; the state is written
+  exit_watch = 1,         // a physics watch stopped the run, the state is written; or figures are not the expected
   exit_bad_input = 2,     // case, model, results file or usage
   exit_device = 3,        // the device asked for is not there
   exit_file = 4,          // a file or folder cannot be written or is in use
@@ -47,7 +47,9 @@ struct RenderArguments {
 };
 
 struct InfoArguments {
-  std::filesystem::path file;  // results or model
+  std::filesystem::path file;      // results or model
+  std::filesystem::path expected;  // figures the run must reproduce, see core/expected_figures.h; empty: not asked
+  bool figures = false;            // what was measured, as comma-separated values
   bool recover = false;
   bool overlap = false;  // measure the overlaps of a frame, see core/overlap_meter.h
   int points = 20000;    // a grain

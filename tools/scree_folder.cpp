@@ -42,7 +42,7 @@ int take_lock(fs::path const& file, int flags) {
 // What an earlier run wrote; foreign files stay.
 void remove_results(fs::path const& folder) {
   for (char const* name : {"case.effective.toml", "results.h5", "results.h5.partial", "results.h5.partial.model",
-                           "ledger.csv", "measures.csv", "stages.json", "run.log"})
+                           "ledger.csv", "measures.csv", "contacts.csv", "stages.json", "run.log"})
     fs::remove(folder / name);
   fs::remove_all(folder / "paraview");
 }

@@ -17,17 +17,51 @@ MeasureLog::MeasureLog(OutputFolder const& folder, Case const& c, Simulation con
   }
   file_.open(folder.file("measures.csv"));
   file_ << "time,name,quantity,value\n";
+  for (MeasureCase const& m : c.measure)
+    if (m.contacts && !contacts_.is_open()) {
+      contacts_.open(folder.file("contacts.csv"));
+      contacts_ << "time,name,a,b,x,y,z,fx,fy,fz\n";
+    }
 }
 
 void MeasureLog::write(Simulation& simulation) {
   if (prefix_.empty()) return;
   std::vector<MeasureRow> const rows = simulation.measure_rows();
-  for (MeasureRow const& row : rows)
+  for (MeasureRow const& row : rows) {
     for (std::size_t q = 0; q < row.value.size(); ++q)
       file_ << fmt::format("{:.9g}{}{},{:.9g}\n", row.time, prefix_[row.measure], quantities_[row.measure][q].name,
                            row.value[q]);
-  if (!rows.empty()) file_ << std::flush;
+    for (ContactRow const& k : row.contact)
+      contacts_ << fmt::format("{:.9g}{}{},{},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g}\n", row.time,
+                               prefix_[row.measure], k.a, k.b, k.point.x, k.point.y, k.point.z, k.force.x, k.force.y,
+                               k.force.z);
+  }
+  if (rows.empty()) return;
+  file_ << std::flush;
+  if (contacts_.is_open()) contacts_ << std::flush;
+  if (!contacts_) throw std::system_error(EIO, std::generic_category(), "contacts.csv: cannot be written");
   if (!file_) throw std::system_error(EIO, std::generic_category(), "measures.csv: cannot be written");
+}
+
+std::string figures_csv(std::vector<MeasureSummary> const& measures) {
+  std::string out = "name,unit,of,value,samples,mean,spread,last\n";
+  for (MeasureSummary const& m : measures)
+    out += fmt::format("{},{},{},{:.9g},{},{:.9g},{:.9g},{:.9g}\n", m.name, m.unit, m.windowed ? "mean" : "last",
+                       m.value(), m.samples, m.mean, m.spread, m.last);
+  return out;
+}
+
+std::string check_table(std::vector<FigureCheck> const& checks, bool& all_ok) {
+  std::string out = fmt::format("{:<36} {:>6} {:>5} {:>13} {:>13} {:>13}\n", "figure", "unit", "of", "expected",
+                                "measured", "allowed");
+  all_ok = true;
+  for (FigureCheck const& c : checks) {
+    out += fmt::format("{:<36} {:>6} {:>5} {:>13.6g} {:>13.6g} {:>13.3g}  {}\n", c.expected.name, c.unit,
+                       c.expected.mean ? "mean" : "last", c.expected.value, c.measured, c.expected.tolerance,
+                       c.ok ? "ok" : "OUTSIDE");
+    all_ok = all_ok && c.ok;
+  }
+  return out;
 }
 
 std::string measure_table(std::vector<MeasureSummary> const& measures) {

@@ -7,12 +7,14 @@
 #include <string>
 #include <vector>
 
+#include "core/expected_figures.h"
 #include "core/simulation.h"
 #include "tools/scree_folder.h"
 
 namespace scree {
 
 // measures.csv: time, name, quantity, value, a line for every value of every sample. No file without [[measure]].
+// contacts.csv: where a measurement has the key `contacts`, the contacts of each sample; b: grain, or -1 - wall.
 class MeasureLog {
  public:
   MeasureLog(OutputFolder const& folder, Case const& c, Simulation const& simulation);  // throws std::system_error
@@ -21,8 +23,14 @@ class MeasureLog {
  private:
   std::vector<std::string> prefix_;                // ",name," of each measure
   std::vector<std::vector<Quantity>> quantities_;  // ... and what it gives
-  std::ofstream file_;
+  std::ofstream file_, contacts_;
 };
+
+// name,unit,of,value,samples,mean,spread,last: a line a quantity; value is the mean where the case gives a window.
+std::string figures_csv(std::vector<MeasureSummary> const& measures);
+
+// Expected, measured, allowed, and whether it is within; `all_ok` says whether every figure is.
+std::string check_table(std::vector<FigureCheck> const& checks, bool& all_ok);
 
 std::string measure_table(std::vector<MeasureSummary> const& measures);
 

@@ -106,6 +106,21 @@ void print_overlap(InfoArguments const& arguments) {
              100 * r.mean, 100 * r.p99, grouped(r.contacts), grouped(r.wall_contacts), r.coordination);
 }
 
+// The figures of a results file: InputError when it has none.
+std::vector<MeasureSummary> figures_of(InfoArguments const& arguments) {
+  std::vector<MeasureSummary> measures = ResultsReader(arguments.file, arguments.recover).measures();
+  if (measures.empty())
+    throw InputError({arguments.file.string() + ": holds no measurements: the case needs [[measure]] entries, and a "
+                                                "run its end"});
+  return measures;
+}
+
+int compare(InfoArguments const& arguments) {
+  bool good = false;
+  fmt::print("{}", check_table(check_figures(read_expected(arguments.expected), figures_of(arguments)), good));
+  return good ? exit_ok : exit_watch;
+}
+
 bool is_model(fs::path const& file) {
   try {
     check_container(file, "scree.model", 1);
@@ -146,6 +161,11 @@ int check_command(CaseArguments const& arguments) {
 }
 
 int info_command(InfoArguments const& arguments) {
+  if (!arguments.expected.empty()) return compare(arguments);
+  if (arguments.figures) {
+    fmt::print("{}", figures_csv(figures_of(arguments)));
+    return exit_ok;
+  }
   bool const model = is_model(arguments.file);
   if (arguments.overlap && model)
     throw InputError({arguments.file.string() + ": --overlap needs a results file, this is a model file"});

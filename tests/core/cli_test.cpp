@@ -16,6 +16,7 @@
 #include <thread>
 
 #include "core/case.h"
+#include "core/expected_figures.h"
 #include "core/results.h"
 #include "shapes/analytic_shapes.h"
 #include "shapes/file_container.h"
@@ -422,6 +423,56 @@ TEST_F(Program, InfoReadsModelsAndRefusesOtherFiles) {
   Outcome const text = scree("info text.h5");
   EXPECT_EQ(text.code, 2);
   EXPECT_NE(text.text.find("text.h5"), std::string::npos) << text.text;
+}
+
+// Spheres at random places, their share of half the box: another one for every seed.
+std::string scattered() {
+  std::string text = with(small_case, "insert = { kind = \"list\", position = [[0, 0, 0.051]], velocity = [0, 0, -1] }",
+                          "count = 6\ninsert = { kind = \"random\", box = [[0, 0, 0.1], [1, 1, 1.1]] }");
+  return with(text, "[output]",
+              "[[measure]]\nname = \"half\"\nkind = \"packing_fraction\"\nbox = [[0, 0, 0], [0.5, 1, 1.2]]\n[output]");
+}
+
+TEST_F(Program, ExpectedFiguresComeFromSeedsAndJudgeARun) {
+  write("spheres.toml", scattered());
+  std::string const script =
+      "SCREE=" SCREE_PROGRAM " " SCREE_SOURCE_DIR "/tools/expected.sh spheres.toml 3 --keep runs";
+  ASSERT_EQ(std::system(("cd " + folder_.string() + " && " + script + " >log 2>&1").c_str()), 0)
+      << read_file(folder_ / "log");
+  double value[3], mean = 0, square = 0;
+  for (int k = 0; k < 3; ++k) {
+    ResultsReader const run(folder_ / ("runs/" + std::to_string(k + 1) + "/results.h5"));
+    ASSERT_EQ(run.measures().at(0).name, "half.fraction");
+    mean += (value[k] = run.measures()[0].last) / 3;
+  }
+  for (double const v : value) square += (v - mean) * (v - mean);
+  std::string const text = read_file(folder_ / "expected.toml");
+  std::vector<ExpectedFigure> const expected = read_expected(folder_ / "expected.toml");
+  ASSERT_EQ(expected.at(0).name, "half.fraction");
+  double const spread = std::sqrt(square / 2);
+  EXPECT_GT(spread, 0.1 * mean);
+  EXPECT_NEAR(expected[0].value, mean, 1e-5 * mean);  // six digits are written
+  EXPECT_NEAR(expected[0].spread, spread, 1e-2 * spread);
+  EXPECT_NEAR(expected[0].tolerance, 4.303 * std::sqrt(4 / 3.0) * spread, 1e-2 * spread * 5);
+  Outcome const good = scree("info runs/2/results.h5 --expected expected.toml");
+  EXPECT_EQ(good.code, 0) << good.text;
+  EXPECT_NE(good.text.find("ok"), std::string::npos);
+  write("other.toml", "[[expected]]\nname = \"half.fraction\"\nvalue = 0.9\ntolerance = 0.01\n");
+  Outcome const bad = scree("info runs/2/results.h5 --expected other.toml");
+  EXPECT_EQ(bad.code, 1) << bad.text;
+  EXPECT_NE(bad.text.find("OUTSIDE"), std::string::npos);
+  write("unknown.toml", "[[expected]]\nname = \"no.such\"\nvalue = 0\ntolerance = 1e9\n");
+  EXPECT_EQ(scree("info runs/2/results.h5 --expected unknown.toml").code, 1);  // what is not measured is not good
+  write("wrong.toml", "[[expected]]\nname = \"half.fraction\"\nvalue = 0\ntolerence = 1\n");
+  Outcome const wrong = scree("info runs/2/results.h5 --expected wrong.toml");
+  EXPECT_EQ(wrong.code, 2);
+  EXPECT_NE(wrong.text.find("did you mean 'tolerance'"), std::string::npos) << wrong.text;
+  std::string const csv = read_file(folder_ / "runs/1/measures.csv");
+  EXPECT_TRUE(csv.starts_with("time,name,quantity,value\n0.001,half,fraction,")) << csv;
+  write("small.toml", small_case);
+  ASSERT_EQ(scree("run small.toml").code, 0);
+  EXPECT_FALSE(fs::exists(folder_ / "small.out/measures.csv"));
+  EXPECT_EQ(scree("info small.out/results.h5 --expected expected.toml").code, 2);
 }
 
 }  // namespace

@@ -90,6 +90,33 @@ normal = [1, 0, 0]
 name = "gone"
 kind = "discharge_rate"
 delete = "far"
+[[measure]]
+name = "arch"
+kind = "blockage"
+point = [0, 0, 0]
+normal = [0, 0, -1]
+longer_than = 0.05
+[[measure]]
+name = "stress"
+kind = "stress"
+box = [[-1, -1, 0], [1, 1, 1]]
+[[measure]]
+name = "chains"
+kind = "force_chains"
+above = 1.5
+contacts = true
+[[measure]]
+name = "path"
+kind = "trajectory"
+grains = "grain"
+index = [0, 2]
+[[measure]]
+name = "speed"
+kind = "velocity"
+[[measure]]
+name = "run"
+kind = "run_out"
+direction = [1, 0, 0]
 )";
 
 Case loaded(std::string const& text) {
@@ -145,6 +172,9 @@ TEST(MeasureCase, WrongEntriesAreRefusedWithTheWayOut) {
   says("name = 'a'\nkind = 'surface_angle'\naxis = [0, 0, 1]\nthrough = [0, 0, 0]\n", "axis is vertical");
   says("name = 'a'\nkind = 'coordination'\nfrom = 1\nuntil = 0.5\n", "must lie after");
   says("name = 'a'\nkind = 'coordination'\nbox = [[0, 0, 0], [1, 1, -1]]\n", "must exceed");
+  says("name = 'a'\nkind = 'trajectory'\ngrains = 'grain'\nindex = [3]\n", "none of the 3 grains");
+  says("name = 'a'\nkind = 'run_out'\ndirection = [0, 0, 2]\n", "is vertical");
+  says("name = 'a'\nkind = 'blockage'\npoint = [0, 0, 0]\nnormal = [0, 0, 1]\n", "longer_than");
   says("name = 'a.b'\nkind = 'coordination'\n", "must be a word");
   says("name = 'a'\nkind = 'coordination'\n[[measure]]\nname = 'a'\nkind = 'coordination'\n", "used twice");
   says("name = 'a'\nkind = 'coordination'\nevery = 0\n", "must be > 0");
