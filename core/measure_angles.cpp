@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "core/measure_contacts.h"
 #include "core/measure_region.h"
@@ -20,13 +21,22 @@ double constexpr flight = 1.5;  // bins off the surface: in flight
 
 double bin_of(MeasureView const& view) { return view.measure.bin.value_or(largest_diameter(view.scene)); }
 
-std::vector<char> touching(MeasureView const& view) {
-  std::vector<char> out(view.scene.solids(), 0);
-  for (std::size_t k = 0; k < view.work.pair.size(); ++k)
-    if (norm2(force_on_a(view.work.result[k])) > 0) {
-      out[view.work.pair[k].a] = 1;
-      if (!view.work.pair[k].with_plane()) out[view.work.pair[k].b] = 1;
-    }
+// Grains that contacts connect to a wall, by union of sets: what lies, not what meets in flight.
+std::vector<char> resting(MeasureView const& view) {
+  int const n = view.scene.bodies();
+  std::vector<int> parent(n + 1);  // n: the walls
+  std::iota(parent.begin(), parent.end(), 0);
+  auto const root = [&](int i) {
+    while (parent[i] != i) i = parent[i] = parent[parent[i]];
+    return i;
+  };
+  for (std::size_t k = 0; k < view.work.pair.size(); ++k) {
+    if (!(norm2(force_on_a(view.work.result[k])) > 0)) continue;
+    Pair const p = view.work.pair[k];
+    parent[root(p.a)] = root(p.with_plane() || p.b >= n ? n : p.b);
+  }
+  std::vector<char> out(n);
+  for (int i = 0; i < n; ++i) out[i] = root(i) == root(n);
   return out;
 }
 
@@ -36,14 +46,14 @@ std::vector<Quantity> pile_quantities(MeasureView const&) { return {{"angle", "d
 
 Values sample_pile(MeasureView const& view, Memory&) {
   MeasureRegion const region(view.measure);
-  std::vector<char> const touches = touching(view);
+  std::vector<char> const rests = resting(view);
   Vec3 const up = up_of(view.c);
   std::vector<int> heap;
   Vec3 moment;
   double mass = 0, base = std::numeric_limits<double>::infinity();
   for (int i = 0; i < view.scene.bodies(); ++i) {
     Vec3 const x = view.state.position[i];
-    if (!view.state.is_active(i) || !touches[i] || !region.contains(x)) continue;
+    if (!view.state.is_active(i) || !rests[i] || !region.contains(x)) continue;
     heap.push_back(i);
     moment += x * view.scene.mass[i];
     mass += view.scene.mass[i];

@@ -6,7 +6,8 @@
 
 namespace scree {
 
-// Heap: grains of the region that touch something (what falls onto it does not belong to it yet) about a vertical axis
+// Heap: grains of the region that contacts connect to a wall (what falls onto it does not belong to it yet, even where
+// two meet in flight) about a vertical axis
 // through `through`, else through their centre of mass; with `direction` one-dimensional along it. See fit_heap.
 // angle [deg] of the flank, height of the highest ring above the lowest grain, both at their tops (centroid +- d/2)
 // [m], rms of the centroids about the line [m].

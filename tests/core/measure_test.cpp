@@ -121,24 +121,28 @@ TEST(HeapFit, FindsTheSlopeOfACone) {
   EXPECT_NEAR(fit_heap(points, false, bin, 0, 0.2, 0.8).line.slope, -tangent, 1e-12);
 }
 
-// Columns of touching spheres whose tops lie on a cone.
+// Columns of touching spheres that stand on a floor and whose tops lie on a cone; above them two that meet in flight.
 TEST(PileAngle, OfColumnsUnderACone) {
-  double const tangent = std::tan(28 * pi / 180);
+  double const tangent = std::tan(28 * pi / 180), foot = 0.0499;
   Case c = rock_case();
   std::vector<Vec3> position;
   for (int i = -10; i <= 10; ++i)
     for (int j = -10; j <= 10; ++j) {
-      double const r = 0.101 * std::hypot(i, j);
-      for (double z = 0.05 + tangent * (1.01 - r); r <= 1.01 && z > -0.05; z -= 0.0999)
-        position.push_back({2 + 0.101 * i, 0.101 * j, z});
+      double const top = tangent * (1.01 - 0.101 * std::hypot(i, j));
+      if (top < foot + 0.06) continue;  // too low for two that overlap by less than half
+      int const more = static_cast<int>(std::ceil((top - foot) / 0.0999));
+      for (int k = 0; k <= more; ++k) position.push_back({2 + 0.101 * i, 0.101 * j, foot + k * (top - foot) / more});
     }
-  position.push_back({2, 0, 5});  // falls onto it: touches nothing
+  position.push_back({2, 0, 5});
+  position.push_back({2.099, 0, 5});
   c.grains = {grains_at("sphere", position)};
+  c.wall = {floor_at(0)};
   MeasureCase m = measure("pile", "pile_angle");
   m.through = Vec3{2, 0, 0};
   c.measure = {m, measure("own_axis", "pile_angle")};
   Measured out = measured_at_once(c);
   EXPECT_NEAR(out["pile.angle"].last, 28, 1e-6);
+  EXPECT_NEAR(out["pile.height"].last, tangent * 1.01 + 0.05 - (foot - 0.05), 1e-9);
   EXPECT_NEAR(out["own_axis.angle"].last, 28, 1e-6);  // symmetric: the centre of mass is on the axis
 }
 
