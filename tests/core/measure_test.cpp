@@ -253,6 +253,26 @@ TEST(WallTorque, PowerIsTorqueTimesRateAndItsIntegralIsTheLedgersWork) {
   EXPECT_NEAR(work, wall_work, 0.01 * wall_work);
 }
 
+// The same with grains whose contacts are nodes, and a turning box: five faces, each a body.
+TEST(WallTorque, SumsNodesAndAllFacesOfAMovingBox) {
+  Case c = turning_drum();
+  c.wall[0] = open_box({-0.2, -0.2, -0.2}, {0.2, 0.2, 0.6});
+  MotionCase& motion = c.wall[0].motion.emplace();
+  motion.axis = {0, 1, 0};
+  motion.through = {-1, 0, 0};
+  motion.rate = -0.5;  // lifts what is at +x
+  c.grains = {grains_at("ellipsoid:1:0.8:0.6", {{0, 0, -0.15}, {-0.12, 0.1, -0.15}, {0.12, 0, -0.14}}, 0.1, 250)};
+  c.measure[0].wall = "container";
+  c.time.end = 0.6;
+  Simulation s(c, {});
+  Measured m = run_to_end(s);
+  double const wall_work = s.ledger().wall_work;
+  EXPECT_GT(wall_work, 3 * sphere_mass * g * 0.8 * std::sin(0.5 * 0.6));  // all are lifted by about that much
+  EXPECT_NEAR(m["drive.work"].last, wall_work, 0.01 * wall_work);
+  MeasureRow const row = s.measure_rows().back();
+  EXPECT_NEAR(row.value[1], row.value[0] * -0.5, 1e-9 * std::abs(row.value[1]));
+}
+
 // A row of grains at speed v, s apart, passes at v / s.
 Case stream(double v, double spacing) {
   Case c = rock_case();
