@@ -203,7 +203,12 @@ void read_grains(CaseReader r, GrainsCase& out) {
   }
   r.choice<NodeStorage>("storage", out.storage,
                         {{"explicit", NodeStorage::explicit_}, {"compact", NodeStorage::compact}});
-  r.number("diameter", out.diameter, Need::required);
+  if (CaseNode const* const node = r.present("diameter"); node && node->kind == CaseNode::Kind::array) {
+    double least = 0;
+    if (r.interval("diameter", least, out.diameter)) out.least_diameter = least;
+  } else {
+    r.number("diameter", out.diameter, Need::required);
+  }
   auto insert = r.table("insert", Need::required);
   if (insert) read_insert(*insert, out.insert);
   bool const filed = insert && out.insert.kind == InsertCase::Kind::file;  // counted when the file is read

@@ -317,6 +317,8 @@ void Checker::grains() {
           "cells across the bounding diameter; 16 give about 15,000 triangles");
     range(at + ".count", g.count, 0, true, 1e8, "number of grains");
     positive(at + ".diameter", g.diameter, "diameter of the equal-volume sphere in m");
+    if (g.least_diameter)
+      range(at + ".diameter", *g.least_diameter, 0, false, g.diameter, "the least diameter of the entry in m");
     insertion(at, g);
   }
 }

@@ -12,7 +12,7 @@
 namespace scree {
 
 // Random numbers of entry `group` for one purpose: streams of a seed that do not depend on how much another one draws.
-enum class Draw : std::uint64_t { shapes = 1, poses = 2, codes = 3, places = 4 };
+enum class Draw : std::uint64_t { shapes = 1, poses = 2, codes = 3, places = 4, sizes = 5 };
 std::mt19937_64 random_stream(std::uint64_t seed, int group, Draw purpose);
 
 // Uniform in [0, 1) from the top 53 bits: std::uniform_real_distribution differs between standard libraries.

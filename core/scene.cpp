@@ -127,12 +127,14 @@ void add_bodies(Case const& c, std::vector<std::vector<int>> const& templates, S
   for (std::size_t g = 0; g < c.grains.size(); ++g) {
     GrainsCase const& grains = c.grains[g];
     int const material = material_index(c, grains.material);
-    double const density = c.material[material].density, d = grains.diameter;
+    double const density = c.material[material].density, least = grains.least_diameter.value_or(grains.diameter);
+    std::mt19937_64 random = random_stream(c.seed, static_cast<int>(g), Draw::sizes);
     for (int shape : assign_shapes(c, static_cast<int>(g), templates[g])) {
       Shape const s = scene.template_shape(shape);
       scene.shape_of.push_back(shape);
       scene.material_of.push_back(material);
       scene.group_of.push_back(static_cast<int>(g));
+      double const d = grains.least_diameter ? least + (grains.diameter - least) * uniform(random) : grains.diameter;
       scene.diameter.push_back(d);
       scene.mass.push_back(density * s.volume * d * d * d);
       scene.inertia.push_back(s.inertia * (density * d * d * d * d * d));

@@ -250,7 +250,7 @@ void append_mesh(MeshSdf const& mesh, ShapeRecord& record, Scene& scene) {
 
 double node_spacing(Case const& c) {
   double least = infinity;
-  for (GrainsCase const& g : c.grains) least = std::min(least, g.diameter);
+  for (GrainsCase const& g : c.grains) least = std::min(least, g.least_diameter.value_or(g.diameter));
   return edge_spacing * (std::isfinite(least) ? least : 1);
 }
 

@@ -562,6 +562,7 @@ Case unusual_case(fs::path const& library) {
       InsertCase::Kind::list, {}, Orientation::aligned, {}, {}, {{9, 9, 9}}, {}, 0, 0, {}, {}, {}, {}};
   c.grains[3] = {"four", "steel", {}, Evaluator::grid, 1000, 1, 0.1, {}};
   c.grains[3].sample = SampleCase{"grains", "bal\"last", 1.75, {0.6, 0.9}, {}, {0.1, 0.2}, {0.3, 1}, {0.4, INFINITY}};
+  c.grains[3].least_diameter = 0.05;
   c.grains[4] = {"five", "steel", {}, Evaluator::net, 1000, 1, 0.1, {}};
   c.grains[4].interpolate = InterpolateCase{"grains", "ballast/0", "sand/3", 0.25, 0.75};
   for (int i : {3, 4}) c.grains[i].insert = c.grains[2].insert;
@@ -606,6 +607,7 @@ void expect_same(InsertCase const& a, InsertCase const& b) {
 void expect_same(GrainsCase const& a, GrainsCase const& b) {
   EXPECT_EQ(std::tie(a.name, a.material, a.shapes, a.evaluator, a.nodes, a.count, a.diameter),
             std::tie(b.name, b.material, b.shapes, b.evaluator, b.nodes, b.count, b.diameter));
+  EXPECT_EQ(a.least_diameter, b.least_diameter);
   EXPECT_EQ(a.sample, b.sample);
   EXPECT_EQ(a.interpolate, b.interpolate);
   expect_same(a.insert, b.insert);

@@ -115,6 +115,27 @@ TEST(SpherePhysics, SphereOnAnInclineRollsOrSlides) {
   }
 }
 
+TEST(SpherePhysics, SizesAreDrawnUniformly) {
+  Case c = rock_case();
+  GrainsCase g = grains_at("sphere", {});
+  for (int i = 0; i < 2000; ++i) g.insert.position.push_back({0.5 * i, 0, 0});
+  g.count = 2000;
+  g.diameter = 0.2, g.least_diameter = 0.1;
+  c.grains = {g};
+  Simulation s(c, {}), again(c, {});
+  std::vector<double> const& d = s.impl().scene.diameter;
+  EXPECT_EQ(d, again.impl().scene.diameter);
+  double sum = 0, square = 0;
+  for (int i = 0; i < 2000; ++i) {
+    EXPECT_TRUE(d[i] >= 0.1 && d[i] <= 0.2);
+    EXPECT_NEAR(s.impl().scene.mass[i] / (2650 * std::numbers::pi / 6 * d[i] * d[i] * d[i]), 1, 1e-12);
+    sum += d[i], square += d[i] * d[i];
+  }
+  double const mean = sum / 2000, variance = square / 2000 - mean * mean;
+  EXPECT_NEAR(mean, 0.15, 4 * 0.1 / std::sqrt(12 * 2000.0));  // four standard errors
+  EXPECT_NEAR(variance / (0.01 / 12), 1, 0.1);
+}
+
 TEST(SpherePhysics, EmptyAndSingleAndFarAwayScenesRun) {
   Case c = rock_case();
   c.gravity = Vec3{0, 0, -9.81};
