@@ -139,6 +139,15 @@ void ParaviewWriter::Data::write_walls() const {
     data.ring.push_back(ring);
     number.push_back(static_cast<std::int32_t>(w));
   }
+  for (std::size_t w = 0; w < header.surface.size(); ++w) {
+    TriangleMesh const& mesh = header.surface[w].mesh;
+    auto const first = static_cast<std::int32_t>(data.point.size());
+    for (Vec3 const& v : mesh.vertex) data.point.push_back(to_float(v));
+    for (auto const& t : mesh.triangle) {
+      data.ring.push_back({first + t[0], first + t[1], first + t[2]});
+      number.push_back(static_cast<std::int32_t>(header.wall.size() + w));
+    }
+  }
   data.cell_data = {vtk_array("wall", number)};
   write_vtp(folder / "walls.vtp", data);
 }

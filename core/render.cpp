@@ -11,6 +11,7 @@
 
 #include "core/grain_rays.h"
 #include "core/render_stage.h"
+#include "core/render_walls.h"
 
 namespace scree {
 
@@ -77,17 +78,22 @@ struct Sample {
   Vec3 colour;  // display-linear, 0..1
   int id = render_sky;
   double depth = infinity;
+  bool wall = false;  // an opaque wall with a surface of its own
 };
 
 class Painter {
  public:
   Painter(ResultsHeader const& header, Frame const& frame, RenderOptions const& options)
-      : grains_(header, frame), stage_(header, grains_.empty() ? header.domain : grains_.bounds()) {
+      : grains_(header, frame),
+        walls_(header),
+        stage_(header, walls_, grains_.empty() ? header.domain : grains_.bounds()) {
     camera_ = options.camera ? *options.camera : fitted_camera(stage_.shown(), options);
     size_ = std::max(norm(stage_.shown().max - stage_.shown().min), 1e-9);
     pixel_ = camera_.field_of_view / options.height;
     Vec3 const view = camera_.eye - camera_.target;
     double const azimuth = std::atan2(view.y, view.x) + 0.95;
+    double const rise = stage_.shown().max.z - stage_.shown().min.z;
+    contour_step_ = std::pow(10.0, std::floor(std::log10(std::max(rise, 1e-9) / 2)));
     sun_ = normalized(Vec3{std::cos(azimuth), std::sin(azimuth), 1.35});
     choose_colours(header);
   }
@@ -143,17 +149,19 @@ class Painter {
     for (std::size_t i = 0; i < rays.size(); ++i) {
       bool const grain = hits[i].body >= 0;
       std::size_t const g = grain ? next++ : 0;
-      double const floor = stage_.floor_distance(rays[i]);
+      double floor = stage_.floor_distance(rays[i]);
+      auto const wall = walls_.first(rays[i], grain ? std::min(hits[i].distance, floor) : floor);
+      if (wall) floor = wall->distance;
       if (grain && hits[i].distance <= floor) {
         samples[i] = {{}, hits[i].body, hits[i].distance};
         lit.push_back(static_cast<int>(i));
         point.push_back(grain_point[g]);
         normal.push_back(grain_normal[g]);
       } else if (floor < infinity) {
-        samples[i] = {{}, render_floor, floor};
+        samples[i] = {{}, render_floor, floor, wall.has_value()};
         lit.push_back(static_cast<int>(i));
         point.push_back(rays[i].origin + rays[i].direction * floor);
-        normal.push_back(stage_.floor_normal(point.back()));
+        normal.push_back(wall ? wall->normal : stage_.floor_normal(point.back()));
       }
     }
   }
@@ -167,7 +175,10 @@ class Painter {
     std::vector<RayHit> hits;
     grains_.trace(rays, hits, true);
     sun.resize(point.size());
-    for (std::size_t k = 0; k < point.size(); ++k) sun[k] = hits[k].body < 0 && dot(normal[k], sun_) > 0 ? 1 : 0;
+    for (std::size_t k = 0; k < point.size(); ++k) {
+      bool const seen = hits[k].body < 0 && dot(normal[k], sun_) > 0 && !walls_.first(rays[k], infinity);
+      sun[k] = seen ? 1 : 0;
+    }
 
     open.assign(point.size(), 1.0);
     double weight = 0.80;
@@ -184,8 +195,18 @@ class Painter {
     }
   }
 
+  // Rock where it is steep, earth where it is level, and contour lines.
+  Vec3 ground(Vec3 point, Vec3 normal, double depth) const {
+    double const level = std::clamp((normal.z - 0.70) / 0.25, 0.0, 1.0), gentle = level * level * (3 - 2 * level);
+    Vec3 const colour = Vec3{0.30, 0.285, 0.265} * (1 - gentle) + Vec3{0.27, 0.29, 0.20} * gentle;
+    double const step = contour_step_, off = std::abs(point.z - step * std::round(point.z / step));
+    // A pixel wide: what a pixel's width is in height on this slope.
+    double const width = depth * pixel_ * std::max(0.05, std::sqrt(std::max(0.0, 1 - normal.z * normal.z)));
+    return colour * (1 - 0.35 * std::clamp(1.5 - off / width, 0.0, 1.0));
+  }
+
   Vec3 shade(Ray const& ray, Sample const& s, Vec3 point, Vec3 normal, double sun, double open) const {
-    Vec3 albedo = floor_colour;
+    Vec3 albedo = s.wall ? ground(point, normal, s.depth) : floor_colour;
     if (s.id >= 0) {
       Vec3 const p = grains_.in_body_frame(s.id, point);
       auto const seed = static_cast<std::uint32_t>(s.id) * 2654435761u;
@@ -200,23 +221,27 @@ class Painter {
       colour += sun_light * (0.05 * sun * std::pow(std::max(0.0, dot(normal, half)), 24.0));
       return colour;
     }
+    if (s.wall) return colour;
     double const far = std::min(1.0, norm(point - camera_.target) / (6 * size_));  // the floor fades into the horizon
     double const haze = 1 - std::exp(-4 * far * far * far);
     return colour * (1 - haze) + sky({1, 0, 0}) * haze;
   }
 
   void finish(Ray const& ray, Sample& s) const {
-    double const glass = stage_.glass(ray, s.depth), edge = 0.75 * stage_.edges(ray, s.depth, pixel_);
+    double const glass = 1 - (1 - stage_.glass(ray, s.depth)) * (1 - walls_.glass(ray, s.depth)),
+                 edge = 0.75 * stage_.edges(ray, s.depth, pixel_);
     Vec3 c = s.colour * (1 - glass) + glass_colour * glass;
     c = c * (1 - edge) + edge_colour * edge;
     s.colour = {display(c.x), display(c.y), display(c.z)};
   }
 
   GrainRays grains_;
+  RenderWalls walls_;
   RenderStage stage_;
   Camera camera_;
   Vec3 sun_;
   double size_ = 1, pixel_ = 0;
+  double contour_step_ = 1;   // [m]
   std::vector<Vec3> colour_;  // of each body
 };
 

@@ -30,7 +30,7 @@ double approach(Ray const& ray, Vec3 from, Vec3 to, double& along_ray) {
 
 }  // namespace
 
-RenderStage::RenderStage(ResultsHeader const& header, Box const& grains) {
+RenderStage::RenderStage(ResultsHeader const& header, RenderWalls const& walls, Box const& grains) {
   bool glass = false;
   for (ResultsWall const& w : header.wall) {
     Vec3 const n = normalized(w.normal);
@@ -38,18 +38,24 @@ RenderStage::RenderStage(ResultsHeader const& header, Box const& grains) {
     glass = glass || n.z <= floor_slope;
   }
   shown_ = grains;
+  if (auto const& around = walls.bounds())
+    for (int i = 0; i < 3; ++i) {
+      shown_.min[i] = std::min(shown_.min[i], around->min[i]);
+      shown_.max[i] = std::max(shown_.max[i], around->max[i]);
+    }
   if (glass)  // a container is shown whole, as wide as it is
     for (int i = 0; i < 2; ++i) {
-      shown_.min[i] = std::min(grains.min[i], header.domain.min[i]);
-      shown_.max[i] = std::max(grains.max[i], header.domain.max[i]);
+      shown_.min[i] = std::min(shown_.min[i], header.domain.min[i]);
+      shown_.max[i] = std::max(shown_.max[i], header.domain.max[i]);
     }
   Vec3 const centre = (shown_.min + shown_.max) * 0.5;
   for (Panel const& p : panels_)
     if (p.floor) shown_.min.z = std::min(shown_.min.z, centre.z - dot(p.normal, centre - p.point) / p.normal.z);
   size_ = norm(shown_.max - shown_.min);
+  for (RenderWalls::Edge const& e : walls.edges()) edges_.push_back({e.from, e.to});
   if (!glass) return;
   double const top = std::min(header.domain.max.z, grains.max.z + 0.06 * size_);
-  shown_.max.z = std::max(grains.max.z, top);
+  shown_.max.z = std::max(shown_.max.z, top);
   panels_.push_back({{0, 0, top}, {0, 0, -1}, false, false});
   Vec3 const slack = Vec3{1, 1, 1} * (1e-6 * size_);
   Vec3 const low = header.domain.min - slack, high = header.domain.max + slack;

@@ -6,13 +6,14 @@
 
 #include "core/grain_rays.h"
 #include "core/render.h"
+#include "core/render_walls.h"
 
 namespace scree {
 
 // The walls of a run, cut off a little above the grains: the picture is of the grains.
 class RenderStage {
  public:
-  RenderStage(ResultsHeader const& header, Box const& grains);
+  RenderStage(ResultsHeader const& header, RenderWalls const& walls, Box const& grains);
 
   double floor_distance(Ray const& ray) const;  // to the first wall that faces up; infinity: none
   Vec3 floor_normal(Vec3 point) const;          // of the floor that is nearest to the point

@@ -13,12 +13,19 @@
 #include "kernels/base/vec.h"
 #include "kernels/views.h"
 #include "shapes/shape.h"
+#include "shapes/triangle_mesh.h"
 
 namespace scree {
 
 struct ResultsWall {  // enough to draw a wall: the solid is behind the plane
   std::string name;
   Vec3 point, normal;  // world [m]; the normal points into the free space
+};
+
+struct ResultsSurface {  // a wall that is not a plane at rest, as drawn
+  std::string name;
+  TriangleMesh mesh;   // world, at time 0 [m]
+  bool glass = false;  // grains are behind it: it must not hide them
 };
 
 struct ResultsHeader {
@@ -29,6 +36,7 @@ struct ResultsHeader {
   std::vector<double> diameter;               // [m] (n)
   std::vector<int> material, group, replica;  // (n)
   std::vector<ResultsWall> wall;
+  std::vector<ResultsSurface> surface;
   Box domain;                       // of walls and initial grains, for cameras [m]
   bool activity = false;            // frames say which bodies are active
   std::vector<std::string> ledger;  // columns beyond those of every run, see results_layout.h

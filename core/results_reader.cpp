@@ -58,6 +58,37 @@ std::vector<ResultsWall> read_walls(hid_t file) {
   return wall;
 }
 
+std::vector<ResultsSurface> read_surfaces(hid_t file) {
+  if (H5Lexists(file, "surfaces", H5P_DEFAULT) <= 0) return {};
+  hdf5::Handle const group = hdf5::open_group(file, "/surfaces");
+  std::vector<std::string> const name = results_hdf5::read_texts(group, "name");
+  auto const glass = read_array<int>(group, "glass"), vertices = read_array<int>(group, "vertices"),
+             triangles = read_array<int>(group, "triangles");
+  auto const vertex = as_vectors<Vec3>(read_array<double>(group, "vertex", {3}));
+  auto const corner = read_array<int>(group, "corner", {3});
+  std::size_t const n = name.size();
+  if (glass.size() != n || vertices.size() != n || triangles.size() != n)
+    throw std::runtime_error("/surfaces: lengths differ");
+  std::vector<ResultsSurface> out;
+  std::size_t v = 0, t = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    bool const fits = vertices[i] >= 0 && triangles[i] >= 0 && v + vertices[i] <= vertex.size() &&
+                      3 * (t + triangles[i]) <= corner.size();
+    if (!fits) throw std::runtime_error("/surfaces: a surface ends beyond its arrays");
+    ResultsSurface s{name[i], {}, glass[i] != 0};
+    s.mesh.vertex.assign(vertex.begin() + v, vertex.begin() + v + vertices[i]);
+    for (int k = 0; k < triangles[i]; ++k) {
+      int const* const c = &corner[3 * (t + k)];
+      for (int j = 0; j < 3; ++j)
+        if (c[j] < 0 || c[j] >= vertices[i]) throw std::runtime_error("/surfaces: a triangle names no vertex");
+      s.mesh.triangle.push_back({c[0], c[1], c[2]});
+    }
+    v += vertices[i], t += triangles[i];
+    out.push_back(std::move(s));
+  }
+  return out;
+}
+
 ResultsHeader read_header(hid_t file) {
   ResultsHeader h;
   h.case_text = results_hdf5::read_text(file, "case");
@@ -76,6 +107,7 @@ ResultsHeader read_header(hid_t file) {
   if (!same || !known || h.shape_name.size() != h.library.shape.size())
     throw std::runtime_error("/bodies contradicts itself");
   h.wall = read_walls(file);
+  h.surface = read_surfaces(file);
   auto const domain = as_vectors<Vec3>(read_array<double>(file, "domain", {3}));
   if (domain.size() != 2) throw std::runtime_error("dataset 'domain' must hold two corners");
   h.domain = {domain[0], domain[1]};

@@ -46,6 +46,30 @@ void write_walls(hid_t file, std::vector<ResultsWall> const& wall) {
   write_array(group, "normal", normal.empty() ? nullptr : &normal[0].x, {wall.size(), 3});
 }
 
+// All surfaces one after the other; nothing where there are none.
+void write_surfaces(hid_t file, std::vector<ResultsSurface> const& surface) {
+  if (surface.empty()) return;
+  hdf5::Handle const group = hdf5::create_group(file, "/surfaces");
+  std::vector<std::string> name;
+  std::vector<int> glass, vertices, triangles;
+  std::vector<double> vertex;
+  std::vector<int> corner;
+  for (ResultsSurface const& s : surface) {
+    name.push_back(s.name);
+    glass.push_back(s.glass);
+    vertices.push_back(static_cast<int>(s.mesh.vertex.size()));
+    triangles.push_back(static_cast<int>(s.mesh.triangle.size()));
+    for (Vec3 const& v : s.mesh.vertex) vertex.insert(vertex.end(), {v.x, v.y, v.z});
+    for (auto const& t : s.mesh.triangle) corner.insert(corner.end(), t.begin(), t.end());
+  }
+  write_texts(group, "name", name);
+  write_array(group, "glass", glass.data(), {glass.size()});
+  write_array(group, "vertices", vertices.data(), {vertices.size()});
+  write_array(group, "triangles", triangles.data(), {triangles.size()});
+  write_array(group, "vertex", vertex.data(), {vertex.size() / 3, 3});
+  write_array(group, "corner", corner.data(), {corner.size() / 3, 3});
+}
+
 void write_header(hid_t file, ResultsHeader const& h, fs::path const& temporary) {
   hdf5::write_attribute(file, "format", std::string(results_layout::kind));
   hdf5::write_attribute(file, "version", std::int64_t{results_layout::version});
@@ -63,6 +87,7 @@ void write_header(hid_t file, ResultsHeader const& h, fs::path const& temporary)
   write_array(bodies, "group", h.group.data(), n);
   write_array(bodies, "replica", h.replica.data(), n);
   write_walls(file, h.wall);
+  write_surfaces(file, h.surface);
   write_array(file, "domain", &h.domain.min.x, {2, 3});
   std::vector<std::string> column;
   for (results_layout::LedgerColumn const& c : results_layout::columns_with(h.ledger)) column.push_back(c.name);

@@ -9,6 +9,7 @@
 #include "core/insertion.h"
 #include "core/simulation_impl.h"
 #include "core/unique_grains.h"
+#include "core/wall_surfaces.h"
 
 namespace scree {
 namespace {
@@ -134,6 +135,7 @@ ResultsHeader Simulation::results_header() const {
   header.replica.assign(s.scene.bodies(), 0);
   for (PlaneRecord const& plane : s.scene.plane)
     header.wall.push_back({s.c.wall[plane.wall].name, plane.point, plane.normal});
+  header.surface = wall_surfaces(s.c, s.scene);
   header.activity = !s.state.activity.empty();
   header.ledger = ledger_columns_of(s.effects);
   Box& domain = header.domain;

@@ -93,6 +93,8 @@ void add_render(CLI::App& app, RenderArguments& a, std::function<int()>& chosen)
   c->add_option("-o,--output", a.picture, "Picture to write (PNG)")->required();
   c->add_option("--frame", a.frame, "Frame number; negative counts from the end")->capture_default_str();
   c->add_option("--size", a.size, "Width x height in pixels")->capture_default_str();
+  c->add_option("--azimuth", a.azimuth, "Camera's direction from the scene round the vertical, 0 from +x [deg]");
+  c->add_option("--elevation", a.elevation, "Camera's height above the horizon [deg]")->check(CLI::Range(-89.0, 89.0));
   c->add_option("--ids", a.ids,
                 "Also write which body each pixel shows: number + 1 = red + 256 green + 65536 blue, 0: none");
   c->add_option("--threads", a.threads, "CPU threads (default: all cores)")->check(CLI::Range(1, 4096));

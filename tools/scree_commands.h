@@ -42,6 +42,7 @@ struct RenderArguments {
   std::filesystem::path results, picture, ids;  // ids: body numbers as colours; empty: none
   int frame = -1;
   std::string size = "1280x960";
+  std::optional<double> azimuth, elevation;  // of the camera [deg]; none: its own choice
   int threads = 0;
   bool recover = false;
 };

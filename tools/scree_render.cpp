@@ -41,6 +41,9 @@ int render_command(RenderArguments const& arguments) {
   CaseArguments machine;
   machine.threads = arguments.threads;
   options.threads = choose_threads(machine);
+  double constexpr degree = 3.141592653589793 / 180;
+  if (arguments.azimuth) options.azimuth = *arguments.azimuth * degree;
+  if (arguments.elevation) options.elevation = *arguments.elevation * degree;
   ResultsReader const reader(arguments.results, arguments.recover);
   Frame const frame = reader.frame(arguments.frame);
   Rendering const rendering = render(reader.header(), frame, options);
