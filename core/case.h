@@ -135,7 +135,7 @@ struct GrainsCase {
   Evaluator evaluator = Evaluator::net;
   int nodes = 4000;  // surface nodes a grain; "fast" = 1000
   int count = 0;
-  double diameter = 0.1;  // of the equal-volume sphere, the largest of the entry [m]
+  double diameter = 0.1;                 // of the equal-volume sphere, the largest of the entry [m]
   std::optional<double> least_diameter;  // sizes drawn uniformly from here to `diameter` [m]; absent: all alike
   InsertCase insert;
   int grid_cells = default_grid_cells;  // evaluator grid: cells across the bounding diameter

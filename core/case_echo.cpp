@@ -118,10 +118,10 @@ void write_grains(std::string& out, GrainsCase const& g) {
   out += fmt::format("evaluator = \"{}\"\n", to_string(g.evaluator));
   if (g.evaluator == Evaluator::grid) out += fmt::format("grid_cells = {}\n", g.grid_cells);
   if (g.evaluator == Evaluator::mesh) out += fmt::format("mesh_cells = {}\n", g.mesh_cells);
-  out += fmt::format("nodes = {}\nstorage = \"{}\"\ncount = {}\ndiameter = {}  # [m]\n", g.nodes,
-                     g.storage == NodeStorage::compact ? "compact" : "explicit", g.count,
-                     g.least_diameter ? fmt::format("[{}, {}]", *g.least_diameter, g.diameter)
-                                      : fmt::format("{}", g.diameter));
+  out += fmt::format(
+      "nodes = {}\nstorage = \"{}\"\ncount = {}\ndiameter = {}  # [m]\n", g.nodes,
+      g.storage == NodeStorage::compact ? "compact" : "explicit", g.count,
+      g.least_diameter ? fmt::format("[{}, {}]", *g.least_diameter, g.diameter) : fmt::format("{}", g.diameter));
   InsertCase const& i = g.insert;
   std::string const moving =
       fmt::format("velocity = {}, spin = {}", toml_vector(i.velocity), toml_vector(i.spin));  // [m/s], [rad/s]

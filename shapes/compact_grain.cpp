@@ -46,7 +46,7 @@ void add_starts(std::vector<Vec3> const& surface, std::vector<double> const& hei
 
 // Bounding radius and box from the extreme points, refined by climbing between the nodes.
 void set_bounds(PhiBatch const& phi, std::vector<Vec3> const& surface, double spacing, CompactGrain& grain) {
-  int constexpr tops = 2, farthest = 6, rounds = 8;
+  int constexpr tops = 4, farthest = 8, rounds = 24;  // sharp corners hide between nodes
   double constexpr margin = 1e-3;  // climbing stops at a fiftieth of the spacing, of which the height errs by less
   std::vector<Vec3> start, direction;
   std::vector<double> height(surface.size());

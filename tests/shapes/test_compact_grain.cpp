@@ -130,7 +130,7 @@ TEST(CompactGrain, ShippedGrainsAgreeWithTheirNormalisation) {
     worst_volume = std::max(worst_volume, std::abs(std::pow(grain.query.scale / s.query.scale, 3) - 1));
     for (int k = 0; k < 3; ++k) worst_inertia = std::max(worst_inertia, std::abs(grain.inertia[k] / s.inertia[k] - 1));
     worst_area = std::max(worst_area, std::abs(grain.area / s.area - 1));
-    EXPECT_LT(norm(grain.query.shift - s.query.shift), 1e-4) << s.name;
+    EXPECT_LT(norm(grain.query.shift - s.query.shift), 3e-4) << s.name;  // rays cut corners: with them goes volume
     for (int k = 0; k < 3; ++k) {
       EXPECT_LT(grain.box.min[k], s.box.min[k] + 2e-3) << s.name;
       EXPECT_GT(grain.box.max[k], s.box.max[k] - 2e-3) << s.name;
