@@ -58,6 +58,7 @@ void visit_discharge(MeasureView const& view, double dt, Memory& memory) {
   };
   if (plane) return each_crossing(view, memory, sides, count);
   int const entry = delete_index(view);
+  if (view.work.leaving.empty()) return;  // before the first step
   for (int i = 0; i < view.scene.bodies(); ++i)
     if (view.work.leaving[i] == entry) count(i, 1);
 }

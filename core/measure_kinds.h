@@ -39,8 +39,9 @@ struct MeasureKind {
   bool region_needed = false;                   // box or cylinder
   std::vector<Quantity> (*quantities)(MeasureView const&);
   Values (*sample)(MeasureView const&, Memory&);
-  void (*visit)(MeasureView const&, double dt, Memory&) = nullptr;  // after every step; null: looks when due only
-  bool interval = false;  // values belong to the time since the previous sample
+  void (*visit)(MeasureView const&, double dt,
+                Memory&) = nullptr;  // after every step, and before the first with dt = 0; null: looks when due only
+  bool interval = false;             // values belong to the time since the previous sample
   std::string (*check)(Case const&, MeasureCase const&) = nullptr;  // what is wrong with the keys together; empty: good
 };
 

@@ -28,8 +28,15 @@ std::vector<Quantity> quantities_of(Case const& c, Scene const& scene, State con
 
 void start_measurements(Case const& c, Scene const& scene, Workspace const& work, State& state) {
   state.measure.assign(c.measure.size(), {});
-  for (std::size_t k = 0; k < c.measure.size(); ++k)
-    state.measure[k].moments.resize(quantities_of(c, scene, state, work, static_cast<int>(k)).size());
+  MeasureCache none;
+  for (std::size_t k = 0; k < c.measure.size(); ++k) {
+    Measurement& own = state.measure[k];
+    MeasureCase const& m = c.measure[k];
+    MeasureKind const& kind = measure_kind(m.kind);
+    own.moments.resize(quantities_of(c, scene, state, work, static_cast<int>(k)).size());
+    // Where everything is before the first step: no crossing is missed, a release is where it was.
+    if (kind.visit) kind.visit({m, c, scene, state, work, none}, 0, own.memory);
+  }
 }
 
 void take_measurements(Case const& c, Scene const& scene, Workspace const& work, double dt, bool last, State& state,

@@ -21,7 +21,7 @@ struct MeasureRow {                 // one sample
 std::vector<Quantity> quantities_of(Case const& c, Scene const& scene, State const& state, Workspace const& work,
                                     int measure);
 
-// Sizes state.measure.
+// Sizes state.measure and notes where everything is; contacts have been evaluated.
 void start_measurements(Case const& c, Scene const& scene, Workspace const& work, State& state);
 
 // After a step of `dt`; `last`: no other step follows. Due samples are appended to `rows` and enter the means.
