@@ -56,21 +56,16 @@ void permute(std::vector<T>& values, std::vector<int> const& from, T fresh) {
   values = std::move(next);
 }
 
-void rebuild_pairs(Queue const& queue, Scene const& scene, SceneView const& view, double skin, State& state,
-                   Workspace& work) {
+void set_skins(Scene const& scene, double skin, Workspace& work) {
   work.skin.resize(scene.solids());
   double largest = 0;
   for (int i = 0; i < scene.bodies(); ++i)
     work.skin[i] = skin * scene.diameter[i], largest = std::max(largest, scene.diameter[i]);
   for (int i = scene.bodies(); i < scene.solids(); ++i) work.skin[i] = skin * largest;
-  work.box.resize(scene.solids());
-  std::vector<double> grown = work.skin;  // boxes reach as far as adhesion does
-  for (double& s : grown) s += scene.cohesion_margin;
-  compute_bounds(queue, view, state.view(), grown, work.box);
-  find_pairs(queue, view, work.box, work.broad_phase);
-  ScopedTimer const timer(queue.profile, "broad_phase/match", work.broad_phase.pair.size());
-  match_old_pairs(work.pair, work.broad_phase.pair, work.old_pair);
-  work.pair = work.broad_phase.pair;
+}
+
+// What follows from work.pair and from where its pairs were before, work.old_pair.
+void assign_pairs(Scene const& scene, SceneView const& view, Workspace& work) {
   work.closed_form.resize(work.pair.size());
   for (std::size_t k = 0; k < work.pair.size(); ++k) {
     Pair const p = work.pair[k];
@@ -80,6 +75,21 @@ void rebuild_pairs(Queue const& queue, Scene const& scene, SceneView const& view
   }
   assign_sides(view, static_cast<int>(scene.networks.net.size()), work.pair, work.old_pair, work.closed_form,
                work.gather, work.old_side);
+  assign_pairs_to_bodies(scene.solids(), work.pair, work.pairs_of_bodies);
+}
+
+void rebuild_pairs(Queue const& queue, Scene const& scene, SceneView const& view, double skin, State& state,
+                   Workspace& work) {
+  set_skins(scene, skin, work);
+  work.box.resize(scene.solids());
+  std::vector<double> grown = work.skin;  // boxes reach as far as adhesion does
+  for (double& s : grown) s += scene.cohesion_margin;
+  compute_bounds(queue, view, state.view(), grown, work.box);
+  find_pairs(queue, view, work.box, work.broad_phase);
+  ScopedTimer const timer(queue.profile, "broad_phase/match", work.broad_phase.pair.size());
+  match_old_pairs(work.pair, work.broad_phase.pair, work.old_pair);
+  work.pair = work.broad_phase.pair;
+  assign_pairs(scene, view, work);
   if (scene.friction) {
     permute(state.node_history.first, work.old_side, 0);
     permute(state.node_history.count, work.old_side, 0);
@@ -90,13 +100,22 @@ void rebuild_pairs(Queue const& queue, Scene const& scene, SceneView const& view
     permute(state.rolling_history.angle, work.old_pair, Vec3{});
     permute(state.rolling_history.stiffness, work.old_pair, 0.0);
   }
-  assign_pairs_to_bodies(scene.solids(), work.pair, work.pairs_of_bodies);
   work.built_position = state.position;
   work.built_orientation = state.orientation;
   ++work.pair_rebuilds;
 }
 
 }  // namespace
+
+void restore_pairs(Scene const& scene, std::vector<Pair> const& pair, std::vector<Vec3> const& built_position,
+                   std::vector<Quat> const& built_orientation, Workspace& work) {
+  set_skins(scene, pair_skin, work);
+  work.pair = pair;
+  work.old_pair.assign(pair.size(), -1);
+  assign_pairs(scene, scene.view(), work);
+  work.built_position = built_position;
+  work.built_orientation = built_orientation;
+}
 
 void evaluate_contacts(Queue const& queue, Scene const& scene, Effects const& effects, ContactSettings const& settings,
                        double dt, State& state, Workspace& work) {
@@ -126,10 +145,8 @@ void evaluate_contacts(Queue const& queue, Scene const& scene, Effects const& ef
   if (effects.sphere_contacts)
     sphere_contacts(queue, view, now, kinematics, options, work.pair, work.closed_form, state.sphere_history,
                     work.next_sphere_history, rolling, work.result);
-  if (effects.friction) {
-    std::swap(state.node_history, work.next_node_history);
-    std::swap(state.sphere_history, work.next_sphere_history);
-  }
+  if (effects.friction && effects.node_contacts) std::swap(state.node_history, work.next_node_history);
+  if (effects.friction && effects.sphere_contacts) std::swap(state.sphere_history, work.next_sphere_history);
   if (effects.rolling) std::swap(state.rolling_history, work.next_rolling_history);
   reduce_to_bodies(queue, view, work.result, work.rolling, work.pairs_of_bodies, state.wrench);
 }

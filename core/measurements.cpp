@@ -17,6 +17,16 @@ void add(double value, bool counts, Moments& m) {
   m.squares += step * (value - m.mean);
 }
 
+void take_sample(MeasureView const& view, int measure, double dt, Measurement& own, std::vector<MeasureRow>& rows) {
+  MeasureCase const& m = view.measure;
+  double const time = view.state.time, slack = dt / 2;  // samples stand at the nearest step
+  own.last_time = time;
+  rows.push_back({measure, time, measure_kind(m.kind).sample(view, own.memory),
+                  m.contacts ? contacts_of(view) : std::vector<ContactRow>{}});
+  bool const counts = time >= m.from - slack && (!m.until || time <= *m.until + slack);
+  for (std::size_t q = 0; q < own.moments.size(); ++q) add(rows.back().value[q], counts, own.moments[q]);
+}
+
 }  // namespace
 
 std::vector<Quantity> quantities_of(Case const& c, Scene const& scene, State const& state, Workspace const& work,
@@ -39,7 +49,7 @@ void start_measurements(Case const& c, Scene const& scene, Workspace const& work
   }
 }
 
-void take_measurements(Case const& c, Scene const& scene, Workspace const& work, double dt, bool last, State& state,
+void take_measurements(Case const& c, Scene const& scene, Workspace const& work, double dt, State& state,
                        MeasureCache& cache, std::vector<MeasureRow>& rows) {
   for (std::size_t k = 0; k < c.measure.size(); ++k) {
     MeasureCase const& m = c.measure[k];
@@ -48,17 +58,22 @@ void take_measurements(Case const& c, Scene const& scene, Workspace const& work,
     MeasureView const view{m, c, scene, state, work, cache};
     if (kind.visit) kind.visit(view, dt, own.memory);
     double const every = m.every.value_or(c.output.every);
-    bool const due = state.time + dt / 2 >= static_cast<double>(own.next) * every;
+    if (state.time + dt / 2 < static_cast<double>(own.next) * every) continue;
+    own.next = static_cast<std::int64_t>(std::floor((state.time + dt / 2) / every)) + 1;
+    take_sample(view, static_cast<int>(k), dt, own, rows);
+  }
+}
+
+void take_last_measurements(Case const& c, Scene const& scene, Workspace const& work, double dt, State& state,
+                            MeasureCache& cache, std::vector<MeasureRow>& rows) {
+  for (std::size_t k = 0; k < c.measure.size(); ++k) {
+    MeasureCase const& m = c.measure[k];
+    Measurement& own = state.measure[k];
     // The run may end one step after a sample; and a short rest of an interval is no fair sample of a rate.
-    bool const extra = last && state.time - own.last_time > (kind.interval ? every / 2 : 1.5 * dt);
-    if (!due && !extra) continue;
-    if (due) own.next = static_cast<std::int64_t>(std::floor((state.time + dt / 2) / every)) + 1;
-    own.last_time = state.time;
-    rows.push_back({static_cast<int>(k), state.time, kind.sample(view, own.memory),
-                    m.contacts ? contacts_of(view) : std::vector<ContactRow>{}});
-    double const slack = dt / 2;  // samples stand at the nearest step
-    bool const counts = state.time >= m.from - slack && (!m.until || state.time <= *m.until + slack);
-    for (std::size_t q = 0; q < own.moments.size(); ++q) add(rows.back().value[q], counts, own.moments[q]);
+    double const least = measure_kind(m.kind).interval ? m.every.value_or(c.output.every) / 2 : 1.5 * dt;
+    if (!(state.time - own.last_time > least)) continue;
+    take_sample({m, c, scene, state, work, cache}, static_cast<int>(k), dt, own, rows);
+    rows.back().off_schedule = true;
   }
 }
 

@@ -16,6 +16,7 @@ struct MeasureRow {                 // one sample
   double time = 0;                  // [s]
   Values value;                     // in the order of quantities_of
   std::vector<ContactRow> contact;  // with the key `contacts`
+  bool off_schedule = false;        // taken because the run ends: a run that is prolonged does not have it
 };
 
 std::vector<Quantity> quantities_of(Case const& c, Scene const& scene, State const& state, Workspace const& work,
@@ -24,9 +25,12 @@ std::vector<Quantity> quantities_of(Case const& c, Scene const& scene, State con
 // Sizes state.measure and notes where everything is; contacts have been evaluated.
 void start_measurements(Case const& c, Scene const& scene, Workspace const& work, State& state);
 
-// After a step of `dt`; `last`: no other step follows. Due samples are appended to `rows` and enter the means.
-void take_measurements(Case const& c, Scene const& scene, Workspace const& work, double dt, bool last, State& state,
+// After a step of `dt`. Due samples are appended to `rows` and enter the means.
+void take_measurements(Case const& c, Scene const& scene, Workspace const& work, double dt, State& state,
                        MeasureCache& cache, std::vector<MeasureRow>& rows);
+// After that, when no other step follows: samples of what was not due.
+void take_last_measurements(Case const& c, Scene const& scene, Workspace const& work, double dt, State& state,
+                            MeasureCache& cache, std::vector<MeasureRow>& rows);
 
 std::vector<MeasureSummary> summarise_measurements(Case const& c, Scene const& scene, State const& state,
                                                    Workspace const& work);

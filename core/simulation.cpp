@@ -96,16 +96,21 @@ RunState Simulation::Impl::step() {
   if (effects.deletion) delete_leaving(queue, c, scene, state, work);
   report = watch(queue, scene, state, gravity_size(), work);
   state.kinetic_peak = std::max(state.kinetic_peak, report.kinetic_total);
-  check_limits();
+  check_finite();
   check_time_step();
   if (effects.settle) settle();
   if (run_state == RunState::running && state.time >= c.time.end * (1 - 1e-12)) run_state = RunState::ended;
   if (effects.measures) {
     ScopedTimer const timer(queue.profile, "measure/all", static_cast<int>(c.measure.size()));
-    take_measurements(c, scene, work, dt, run_state != RunState::running, state, measure_cache, measure_rows);
+    take_measurements(c, scene, work, dt, state, measure_cache, measure_rows);
+    if (run_state != RunState::running) {
+      measure_on_schedule = state.measure;
+      take_last_measurements(c, scene, work, dt, state, measure_cache, measure_rows);
+    }
   }
   if (run_state != RunState::running && effects.insertion) report_insertion(c, state, messages);
   if (run_state != RunState::running && effects.deletion) report_deletion(c, state, messages);
+  check_overlap();  // last: the state it leaves behind is that of a whole step
   return run_state;
 }
 
@@ -124,12 +129,16 @@ void Simulation::Impl::move_walls(double dt) {
   }
 }
 
-void Simulation::Impl::check_limits() {
-  auto const stop = [&](std::string const& what) {
-    throw WatchStop(fmt::format("stopped at t = {:.6g} s, step {}: {}", state.time, state.step, what));
-  };
+void Simulation::Impl::stop(std::string const& what) const {
+  throw WatchStop(fmt::format("stopped at t = {:.6g} s, step {}: {}", state.time, state.step, what));
+}
+
+void Simulation::Impl::check_finite() const {
   if (report.not_finite >= 0)
     stop(describe_body(scene, report.not_finite) + " has a position or velocity that is not finite");
+}
+
+void Simulation::Impl::check_overlap() const {
   if (report.overlap > c.limits.overlap)
     stop(
         fmt::format("{} overlap by {:.3g} d, limits.overlap is {:.3g}. A smaller impact speed, a stiffer contact or a "
@@ -192,6 +201,7 @@ RunState Simulation::state() const { return impl_->run_state; }
 double Simulation::time() const { return impl_->state.time; }
 double Simulation::time_step() const { return impl_->state.time_step; }
 std::int64_t Simulation::steps() const { return impl_->state.step; }
+std::int64_t Simulation::own_steps() const { return impl_->state.step - impl_->first_step; }
 int Simulation::bodies() const { return impl_->scene.bodies(); }
 double Simulation::largest_overlap() const { return impl_->report.overlap; }
 double Simulation::largest_kinetic_per_grain() const { return impl_->report.kinetic_largest; }

@@ -15,6 +15,8 @@
 
 namespace scree {
 
+struct Checkpoint;  // core/checkpoint.h
+
 // A watch stopped the run: body, step, time and reason are in the message; the state is still readable.
 class WatchStop : public std::runtime_error {
  public:
@@ -60,6 +62,7 @@ class Simulation {
   double time() const;        // [s]
   double time_step() const;   // [s]
   std::int64_t steps() const;
+  std::int64_t own_steps() const;  // without those before a restart
   int bodies() const;
   ResultsHeader results_header() const;
   Frame frame() const;  // synchronised velocities
@@ -70,6 +73,11 @@ class Simulation {
   std::vector<Quantity> measure_quantities(int measure) const;  // of [[measure]] entry `measure`
   std::vector<MeasureRow> measure_rows();                       // samples taken since the last call
   std::vector<MeasureSummary> measure_summary() const;          // empty without [[measure]]
+  // All that is needed to go on with the same bits; `output` is the caller's to fill in.
+  Checkpoint checkpoint() const;
+  // Go on from there: every later State equals that of the run which was never stopped, bit by bit, for any number of
+  // threads. Throws InputError for a checkpoint of another case or of contradictory content; this object is then void.
+  void restore(Checkpoint const& checkpoint);
   std::vector<std::string> messages();  // what happened since the last call (time step halved, lists grown ...)
 
   struct Impl;

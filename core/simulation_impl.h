@@ -29,6 +29,8 @@ struct Simulation::Impl {
   bool warned_of_share = false;
   MeasureCache measure_cache;
   std::vector<MeasureRow> measure_rows;
+  std::vector<Measurement> measure_on_schedule;  // at the end: State::measure without the samples taken because of it
+  std::int64_t first_step = 0;                   // of this process: where it was restored
 
   Impl(Case const& c_, SimulationOptions const& options_, Frame const* start);
   RunState step();
@@ -36,7 +38,9 @@ struct Simulation::Impl {
 
  private:
   void move_walls(double dt);
-  void check_limits();
+  [[noreturn]] void stop(std::string const& what) const;
+  void check_finite() const;
+  void check_overlap() const;
   void check_time_step();
   void settle();
 };

@@ -40,10 +40,10 @@ struct SpherePair {
   }
 
   SCREE_HD void operator()(int k) const {
+    if (!next_xi.empty()) next_xi[k] = {}, next_stiffness[k] = 0;
     if (!closed_form[k]) return;
     Pair const p = pair[k];
     PairResult out;
-    if (!next_xi.empty()) next_xi[k] = {}, next_stiffness[k] = 0;
     if (rolling.on()) rolling.next_angle[k] = {}, rolling.next_stiffness[k] = 0, rolling.result[k] = {};
     double const ra = radius(p.a);
     Vec3 const xa = state.position[p.a];

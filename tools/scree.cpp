@@ -47,7 +47,11 @@ void add_run(CLI::App& app, RunArguments& a, std::function<int()>& chosen) {
   CLI::App* const c = app.add_subcommand("run", "Run a case");
   add_case_options(*c, a.scene);
   c->add_option("-o,--output", a.output, "Output folder (default: <case>.out)");
-  c->add_flag("--force", a.force, "Replace the results of an earlier run in the output folder");
+  CLI::Option* const force =
+      c->add_flag("--force", a.force, "Replace the results of an earlier run in the output folder");
+  c->add_flag("--resume", a.resume,
+              "Go on from the newest whole checkpoint in the output folder; from the start where there is no run yet")
+      ->excludes(force);
   c->add_flag("-q,--quiet", a.quiet, "No progress, only warnings and the final summary");
   c->callback([&] { chosen = [&] { return run_command(a); }; });
 }

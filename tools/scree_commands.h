@@ -15,7 +15,7 @@ enum ExitCode : int {
   exit_bad_input = 2,     // case, model, results file or usage
   exit_device = 3,        // the device asked for is not there
   exit_file = 4,          // a file or folder cannot be written or is in use
-  exit_interrupted = 130  // SIGINT or SIGTERM; the files are complete up to that moment
+  exit_interrupted = 130  // SIGINT or SIGTERM; a checkpoint is written, the files are complete up to that moment
 };
 
 class DeviceError : public std::runtime_error {
@@ -35,6 +35,7 @@ struct RunArguments {
   CaseArguments scene;
   std::filesystem::path output;  // empty: <case>.out in the current folder
   bool force = false;
+  bool resume = false;  // from the newest checkpoint in the output folder
   bool quiet = false;
 };
 

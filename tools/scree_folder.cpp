@@ -11,6 +11,7 @@
 #include <system_error>
 
 #include "core/case.h"
+#include "core/checkpoint_folder.h"
 
 namespace scree {
 namespace {
@@ -40,16 +41,32 @@ int take_lock(fs::path const& file, int flags) {
 }
 
 // What an earlier run wrote; foreign files stay.
+char const* const result_names[] = {"case.effective.toml",
+                                    "results.h5",
+                                    "results.h5.partial",
+                                    "results.h5.partial.model",
+                                    "ledger.csv",
+                                    "measures.csv",
+                                    "contacts.csv",
+                                    "stages.json",
+                                    "run.log"};
+
 void remove_results(fs::path const& folder) {
-  for (char const* name : {"case.effective.toml", "results.h5", "results.h5.partial", "results.h5.partial.model",
-                           "ledger.csv", "measures.csv", "contacts.csv", "stages.json", "run.log"})
-    fs::remove(folder / name);
+  for (char const* name : result_names) fs::remove(folder / name);
   fs::remove_all(folder / "paraview");
+  CheckpointFolder(OutputFolder::checkpoints(folder)).remove_all();
 }
 
 }  // namespace
 
-void OutputFolder::check(fs::path const& folder, bool force) {
+bool OutputFolder::has_results(fs::path const& folder) {
+  std::error_code error;
+  for (char const* name : result_names)
+    if (fs::exists(folder / name, error)) return true;
+  return false;
+}
+
+void OutputFolder::check(fs::path const& folder, FolderUse use) {
   std::error_code error;
   fs::file_status const status = fs::status(folder, error);
   if (status.type() == fs::file_type::not_found) return;
@@ -59,22 +76,22 @@ void OutputFolder::check(fs::path const& folder, bool force) {
   if (lock >= 0) ::close(lock);
   if (lock < 0 && errno == EWOULDBLOCK) refuse_in_use(folder);
   for (fs::directory_entry const& entry : fs::directory_iterator(folder))
-    if (!force && entry.path().filename() != lock_name)
+    if (use == FolderUse::fresh && entry.path().filename() != lock_name)
       throw InputError(
-          {fmt::format("{}: the output folder exists and is not empty; use --force to replace its results, "
-                       "or another --output",
+          {fmt::format("{}: the output folder exists and is not empty; use --force to replace its results, --resume "
+                       "to go on from its checkpoint, or another --output",
                        folder.string())});
 }
 
-OutputFolder::OutputFolder(fs::path folder, bool force) : path_(std::move(folder)) {
-  check(path_, force);
+OutputFolder::OutputFolder(fs::path folder, FolderUse use) : path_(std::move(folder)) {
+  check(path_, use);
   std::error_code error;
   fs::create_directories(path_, error);
   if (error) throw std::system_error(error, path_.string() + ": the output folder cannot be made");
   lock_ = take_lock(path_ / lock_name, O_RDWR | O_CREAT);
   if (lock_ < 0 && errno == EWOULDBLOCK) refuse_in_use(path_);
   if (lock_ < 0) fail(errno, path_.string() + ": the output folder cannot be written");
-  if (force) remove_results(path_);
+  if (use == FolderUse::replace) remove_results(path_);
 }
 
 OutputFolder::~OutputFolder() {

@@ -9,25 +9,58 @@
 
 namespace scree {
 
-MeasureLog::MeasureLog(OutputFolder const& folder, Case const& c, Simulation const& simulation) {
+namespace {
+
+// Opens a new file with its first line, or cuts an old one where it was at the checkpoint.
+void open_csv(std::filesystem::path const& file, std::int64_t const* keep, char const* columns, std::ofstream& stream) {
+  if (keep) std::filesystem::resize_file(file, static_cast<std::uintmax_t>(*keep));
+  stream.open(file, keep ? std::ios::binary | std::ios::app : std::ios::binary | std::ios::out);
+  if (!keep) stream << columns;
+}
+
+}  // namespace
+
+MeasureLog::MeasureLog(OutputFolder const& folder, Case const& c, Simulation const& simulation,
+                       OutputProgress const* earlier) {
   if (c.measure.empty()) return;
   for (std::size_t k = 0; k < c.measure.size(); ++k) {
     prefix_.push_back("," + c.measure[k].name + ",");
     quantities_.push_back(simulation.measure_quantities(static_cast<int>(k)));
   }
-  file_.open(folder.file("measures.csv"));
-  file_ << "time,name,quantity,value\n";
+  open_csv(folder.file("measures.csv"), earlier ? &earlier->measures_bytes : nullptr, "time,name,quantity,value\n",
+           file_);
   for (MeasureCase const& m : c.measure)
     if (m.contacts && !contacts_.is_open()) {
-      contacts_.open(folder.file("contacts.csv"));
-      contacts_ << "time,name,a,b,x,y,z,fx,fy,fz\n";
+      open_csv(folder.file("contacts.csv"), earlier ? &earlier->contacts_bytes : nullptr,
+               "time,name,a,b,x,y,z,fx,fy,fz\n", contacts_);
     }
+}
+
+void MeasureLog::note_sizes(OutputProgress& out) {
+  if (on_schedule_) {
+    out.measures_bytes = on_schedule_->measures_bytes;
+    out.contacts_bytes = on_schedule_->contacts_bytes;
+    return;
+  }
+  // A stream that appends knows its place after the first write only.
+  auto const size = [](std::ofstream& stream) {
+    if (!stream.is_open()) return std::int64_t{0};
+    stream.seekp(0, std::ios::end);
+    return static_cast<std::int64_t>(stream.tellp());
+  };
+  out.measures_bytes = size(file_);
+  out.contacts_bytes = size(contacts_);
 }
 
 void MeasureLog::write(Simulation& simulation) {
   if (prefix_.empty()) return;
   std::vector<MeasureRow> const rows = simulation.measure_rows();
   for (MeasureRow const& row : rows) {
+    if (row.off_schedule && !on_schedule_) {
+      OutputProgress sizes;
+      note_sizes(sizes);
+      on_schedule_ = sizes;
+    }
     for (std::size_t q = 0; q < row.value.size(); ++q)
       file_ << fmt::format("{:.9g}{}{},{:.9g}\n", row.time, prefix_[row.measure], quantities_[row.measure][q].name,
                            row.value[q]);

@@ -4,9 +4,11 @@
 
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "core/checkpoint.h"
 #include "core/expected_figures.h"
 #include "core/simulation.h"
 #include "tools/scree_folder.h"
@@ -17,13 +19,16 @@ namespace scree {
 // contacts.csv: where a measurement has the key `contacts`, the contacts of each sample; b: grain, or -1 - wall.
 class MeasureLog {
  public:
-  MeasureLog(OutputFolder const& folder, Case const& c, Simulation const& simulation);  // throws std::system_error
-  void write(Simulation& simulation);  // the samples taken since the last call
+  // `earlier`: go on behind what a checkpoint has noted; null: new files. Throws std::system_error.
+  MeasureLog(OutputFolder const& folder, Case const& c, Simulation const& simulation, OutputProgress const* earlier);
+  void write(Simulation& simulation);    // the samples taken since the last call
+  void note_sizes(OutputProgress& out);  // of the files, without samples that were taken because the run ends
 
  private:
   std::vector<std::string> prefix_;                // ",name," of each measure
   std::vector<std::vector<Quantity>> quantities_;  // ... and what it gives
   std::ofstream file_, contacts_;
+  std::optional<OutputProgress> on_schedule_;
 };
 
 // name,unit,of,value,samples,mean,spread,last: a line a quantity; value is the mean where the case gives a window.

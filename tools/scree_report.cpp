@@ -15,7 +15,7 @@
 
 namespace scree {
 
-RunLog::RunLog(std::filesystem::path const& file) : file_(file) {
+RunLog::RunLog(std::filesystem::path const& file, bool append) : file_(file, append ? std::ios::app : std::ios::out) {
   if (!file_)
     throw std::system_error(errno ? errno : EIO, std::generic_category(), file.string() + ": cannot be written");
 }
@@ -31,8 +31,12 @@ void RunLog::say(std::string const& line) {
   write(line);
 }
 
-Progress::Progress(double end, bool quiet)
-    : end_(end), quiet_(quiet), terminal_(::isatty(STDERR_FILENO) == 1), start_(std::chrono::steady_clock::now()) {
+Progress::Progress(double start, double end, bool quiet)
+    : begin_(start),
+      end_(end),
+      quiet_(quiet),
+      terminal_(::isatty(STDERR_FILENO) == 1),
+      start_(std::chrono::steady_clock::now()) {
   next_ = terminal_ ? 0.1 : 1;
 }
 
@@ -42,14 +46,14 @@ double Progress::elapsed() const {
 
 // The remaining time counts to time.end; a settle stage may stop earlier, hence "at most".
 std::string Progress::line(Simulation const& s) const {
-  double const wall = elapsed(), share = std::clamp(s.time() / end_, 0.0, 1.0);
+  double const wall = elapsed(), share = std::clamp((s.time() - begin_) / std::max(end_ - begin_, 1e-300), 0.0, 1.0);
   std::string const left = share > 1e-6 ? duration(wall * (1 - share) / share) : "?";
   return fmt::format(
       "t {:.4f} of {:g} s, {}, step {}, dt {:.2e} s, {:.0f} steps/s, overlap {:.2f} % d, kinetic {:.1e} m g d, at most "
       "{} left",
       s.time(), end_, s.phase(), grouped(s.steps()), s.time_step(),
-      static_cast<double>(s.steps()) / std::max(wall, 1e-9), 100 * s.largest_overlap(), s.largest_kinetic_per_grain(),
-      left);
+      static_cast<double>(s.own_steps()) / std::max(wall, 1e-9), 100 * s.largest_overlap(),
+      s.largest_kinetic_per_grain(), left);
 }
 
 void Progress::show(Simulation const& s) {
@@ -141,7 +145,7 @@ std::string stages_json(std::vector<StageRow> const& rows, Simulation const& s, 
       "{},\n  \"steps\": {},\n"
       "  \"simulated_seconds\": {},\n  \"wall_seconds\": {},\n  \"particle_steps_per_second\": {},\n  \"stages\": [",
       build_info().version, build_info().commit, sdf_isa(), threads, s.bodies(), s.steps(), s.time(), wall,
-      static_cast<double>(s.bodies()) * static_cast<double>(s.steps()) / std::max(wall, 1e-9));
+      static_cast<double>(s.bodies()) * static_cast<double>(s.own_steps()) / std::max(wall, 1e-9));
   for (std::size_t i = 0; i < rows.size(); ++i)
     out += fmt::format("{}\n    {{\"name\": \"{}\", \"seconds\": {}, \"calls\": {}, \"items\": {}}}", i ? "," : "",
                        rows[i].name, rows[i].seconds, rows[i].calls, rows[i].items);

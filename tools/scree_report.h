@@ -16,9 +16,9 @@ namespace scree {
 // Messages go to the terminal and, with a time stamp, into run.log.
 class RunLog {
  public:
-  explicit RunLog(std::filesystem::path const& file);  // throws std::system_error
-  void write(std::string const& line);                 // file only
-  void say(std::string const& line);                   // both
+  RunLog(std::filesystem::path const& file, bool append);  // throws std::system_error
+  void write(std::string const& line);                     // file only
+  void say(std::string const& line);                       // both
 
  private:
   std::ofstream file_;
@@ -28,7 +28,7 @@ class RunLog {
 // A bar on a terminal, plain lines when piped: at 1, 5 and 15 s, then every 30 s.
 class Progress {
  public:
-  Progress(double end, bool quiet);  // end: simulated time [s]
+  Progress(double start, double end, bool quiet);  // of the simulated time [s]
   void show(Simulation const& simulation);
   void clear();  // before other output
 
@@ -36,7 +36,7 @@ class Progress {
   double elapsed() const;
   std::string line(Simulation const& simulation) const;
 
-  double end_;
+  double begin_, end_;
   bool quiet_, terminal_, drawn_ = false;
   std::chrono::steady_clock::time_point start_;
   double next_ = 0;  // [s] of wall time

@@ -11,9 +11,11 @@
 #include <thread>
 
 #include "core/case.h"
+#include "core/frame_journal.h"
 #include "core/paraview.h"
 #include "core/results_layout.h"
 #include "core/simulation.h"
+#include "tools/run_checkpoints.h"
 #include "tools/scree_commands.h"
 #include "tools/scree_folder.h"
 #include "tools/scree_measures.h"
@@ -44,45 +46,75 @@ void write_text(fs::path const& file, std::string const& text) {
 // Everything a run writes while it goes.
 class Recorder {
  public:
-  Recorder(OutputFolder const& folder, Case const& c, Simulation const& simulation)
-      : results_(folder.file("results.h5"), simulation.results_header()),
+  // `header` is that of the run's beginning. `earlier`: the frames of an earlier process, which are written again;
+  // `schedule`: how far it was. Null: the run begins, with its first frame.
+  Recorder(OutputFolder const& folder, Case const& c, ResultsHeader const& header, Simulation& simulation,
+           EarlierFrames const* earlier, OutputProgress const* schedule)
+      : results_(folder.file("results.h5"), header),
         ledger_(folder.file("ledger.csv")),
-        measures_(folder, c, simulation),
-        column_(results_layout::columns_with(simulation.results_header().ledger)),
+        measures_(folder, c, simulation, schedule),
+        column_(results_layout::columns_with(header.ledger)),
         every_(c.output.every) {
     write_text(folder.file("case.effective.toml"), to_toml(c));
-    std::string header;
+    std::string names;
     for (results_layout::LedgerColumn const& column : column_)
-      header += fmt::format("{}{}", header.empty() ? "" : ",", column.name);
-    ledger_ << header << "\n";
+      names += fmt::format("{}{}", names.empty() ? "" : ",", column.name);
+    ledger_ << names << "\n";
     if (c.output.paraview) {
       ParaviewOptions options;
       options.frames_expected = static_cast<int>(std::min(1e6, c.time.end / c.output.every)) + 2;
-      paraview_.emplace(folder.file("paraview"), simulation.results_header(), options);
+      paraview_.emplace(folder.file("paraview"), header, options);
     }
-    write(simulation);
+    journal_file_ = CheckpointFolder(OutputFolder::checkpoints(folder.path())).journal();
+    if (earlier) earlier->for_each([&](Frame const& frame, LedgerRow const& row) { write(frame, row); });
+    if (c.checkpoint) start_journal(earlier);
+    if (!schedule)
+      write_if_due(simulation);
+    else if (schedule->every == every_)
+      due_ = schedule->due;
+    else
+      due_ = static_cast<std::int64_t>((simulation.time() + simulation.time_step() / 2) / every_) + 1;
   }
 
   void write_if_due(Simulation& s) {
     measures_.write(s);
-    if (s.time() + s.time_step() / 2 >= static_cast<double>(frames_) * every_) write(s);
+    if (s.time() + s.time_step() / 2 < static_cast<double>(due_) * every_) return;
+    write(s.frame(), s.ledger());
+    ++due_;
+  }
+
+  // For a checkpoint: after this, what was written so far cannot be lost.
+  OutputProgress progress(Simulation& s) {
+    measures_.write(s);
+    if (journal_) journal_->sync();
+    OutputProgress out{frames_, due_, every_};
+    measures_.note_sizes(out);
+    return out;
   }
 
   // The last state, unless it was just written, and the seal.
   void finish(Simulation& s, std::vector<StageRow> const& stages) {
     measures_.write(s);
     results_.write_measures(s.measure_summary());
-    if (last_step_ != s.steps()) write(s);
+    if (last_step_ != s.steps()) write(s.frame(), s.ledger());
     if (paraview_) paraview_->finish();
     results_.finish(stages);
+    journal_.reset();
+    fs::remove(journal_file_);  // results.h5 holds it all now
   }
 
   int frames() const { return frames_; }
 
  private:
-  void write(Simulation const& s) {
-    Frame const frame = s.frame();
-    LedgerRow const row = s.ledger();
+  // Frames come from a file again only if a kill cannot have torn it: see core/frame_journal.h.
+  void start_journal(EarlierFrames const* earlier) {
+    fs::create_directories(journal_file_.parent_path());
+    journal_.emplace(journal_file_, earlier ? earlier->journal_bytes() : 0);
+    if (earlier && earlier->journal_bytes() == 0)
+      earlier->for_each([&](Frame const& frame, LedgerRow const& row) { journal_->append(frame, row); });
+  }
+
+  void write(Frame const& frame, LedgerRow const& row) {
     results_.write_ledger(row);
     results_.write_frame(frame);
     if (paraview_) paraview_->write_frame(frame);
@@ -91,7 +123,8 @@ class Recorder {
       line += fmt::format("{}{:.9g}", line.empty() ? "" : ",", row.*column.value);
     ledger_ << line << "\n" << std::flush;
     if (!ledger_) throw std::system_error(EIO, std::generic_category(), "ledger.csv: cannot be written");
-    last_step_ = s.steps();
+    if (journal_) journal_->append(frame, row);
+    last_step_ = frame.step;
     ++frames_;
   }
 
@@ -100,8 +133,11 @@ class Recorder {
   MeasureLog measures_;
   std::vector<results_layout::LedgerColumn> column_;  // of the ledger
   std::optional<ParaviewWriter> paraview_;
-  double every_;  // [s]
+  fs::path journal_file_;
+  std::optional<JournalWriter> journal_;  // with [checkpoint]
+  double every_;                          // [s]
   int frames_ = 0;
+  std::int64_t due_ = 0;  // the next frame is due at due_ every_
   std::int64_t last_step_ = -1;
 };
 
@@ -111,10 +147,12 @@ struct Ending {
 };
 
 // Steps until the case ends, a watch stops it or a signal comes.
-Ending step_to_the_end(Simulation& simulation, Recorder& recorder, Progress& progress, RunLog& log) {
+Ending step_to_the_end(Simulation& simulation, Recorder& recorder, RunCheckpoints& checkpoints, Progress& progress,
+                       RunLog& log) {
   try {
     while (simulation.step() == RunState::running) {
       recorder.write_if_due(simulation);
+      if (checkpoints.due(simulation)) checkpoints.write(simulation, recorder.progress(simulation));
       for (std::string const& message : simulation.messages()) {
         progress.clear();
         log.say(message);
@@ -135,12 +173,11 @@ void introduce(RunLog& log, Case const& c, Simulation const& simulation, std::st
                       device));
   log.say(fmt::format("{} steps of {:.3g} s to t = {:g} s", grouped(plan.steps), plan.step, c.time.end));
   for (std::string const& note : plan.notes) log.say(note);
-  if (c.checkpoint) log.say("[checkpoint] is read, but this version writes no checkpoints");
 }
 
 void summarise(RunLog& log, OutputFolder const& folder, Case const& c, Simulation const& s, Recorder const& recorder,
                Ending const& ending, std::vector<StageRow> const& stages, double wall) {
-  double const particle_steps = static_cast<double>(s.bodies()) * static_cast<double>(s.steps());
+  double const particle_steps = static_cast<double>(s.bodies()) * static_cast<double>(s.own_steps());
   log.say(fmt::format("{} after {:.6g} s: {} steps, {} frames, {}, {:.4g} particle-steps/s", ending.text, s.time(),
                       grouped(s.steps()), recorder.frames(), duration(wall), particle_steps / std::max(wall, 1e-9)));
   log.say(stage_table(stages, wall));
@@ -179,26 +216,53 @@ int run_command(RunArguments const& arguments) {
   Case const c = load_case(arguments.scene.file, arguments.scene.overrides, arguments.scene.share);
   fs::path const output =
       arguments.output.empty() ? fs::path(arguments.scene.file.stem().string() + ".out") : arguments.output;
-  OutputFolder::check(output, arguments.force);
+  FolderUse const use = arguments.resume ? FolderUse::resume : arguments.force ? FolderUse::replace : FolderUse::fresh;
+  OutputFolder::check(output, use);
   SimulationOptions options;
   options.threads = threads;
   Simulation simulation(c, options);
+  ResultsHeader const header = simulation.results_header();
+  std::vector<std::string> remarks;
+  std::optional<Checkpoint> checkpoint;
+  if (arguments.resume) checkpoint = checkpoint_to_resume(output, remarks);
+  if (checkpoint) simulation.restore(*checkpoint);
+  if (checkpoint && simulation.state() != RunState::running) {
+    fmt::print("{}: the run is finished, at t = {:.6g} s; a later time.end prolongs one that reached its end\n",
+               output.string(), simulation.time());
+    return exit_ok;
+  }
 
-  OutputFolder const folder(output, arguments.force);
-  RunLog log(folder.file("run.log"));
+  OutputFolder const folder(output, use);
+  std::optional<EarlierFrames> earlier;
+  if (checkpoint) earlier.emplace(output, checkpoint->output);
+  RunLog log(folder.file("run.log"), checkpoint.has_value());
   introduce(log, c, simulation, device);
-  Recorder recorder(folder, c, simulation);
-  Progress progress(c.time.end, arguments.quiet);
+  for (std::string const& remark : remarks) log.say(remark);
+  if (arguments.resume)
+    log.say(checkpoint ? fmt::format("goes on from t = {:.6g} s, step {}", simulation.time(), simulation.steps())
+                       : "no earlier run in " + output.string() + ": starts at t = 0");
+  Recorder recorder(folder, c, header, simulation, earlier ? &*earlier : nullptr,
+                    checkpoint ? &checkpoint->output : nullptr);
+  RunCheckpoints checkpoints(output, c, simulation);
+  Progress progress(simulation.time(), c.time.end, arguments.quiet);
+  recorder.write_if_due(simulation);  // the step at which the run ended or was stopped by a watch
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
   auto const start = std::chrono::steady_clock::now();
-  Ending const ending = step_to_the_end(simulation, recorder, progress, log);
+  Ending const ending = step_to_the_end(simulation, recorder, checkpoints, progress, log);
   double const wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   progress.clear();
 
   for (std::string const& message : simulation.messages()) log.say(message);
   std::vector<StageRow> const stages = stage_rows(simulation.profile());
+  // A run that is stopped can always be gone on from; one that ends when it has checkpoints, with sealed files only.
+  OutputProgress const written = recorder.progress(simulation);
+  std::optional<fs::path> last;
+  if (ending.code == exit_watch) last = checkpoints.write_stopped(simulation, written);
+  if (ending.code == exit_interrupted) last = checkpoints.write(simulation, written);
   recorder.finish(simulation, stages);
+  if (ending.code == exit_ok && checkpoints.scheduled()) last = checkpoints.write(simulation, written);
+  if (last) log.say(fmt::format("checkpoint {}", last->string()));
   write_text(folder.file("stages.json"), stages_json(stages, simulation, threads, wall));
   summarise(log, folder, c, simulation, recorder, ending, stages, wall);
   if (ending.code == exit_watch) fmt::print(stderr, "scree: error: {}\n", ending.text);
