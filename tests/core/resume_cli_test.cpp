@@ -1,4 +1,4 @@
-// resume_cli_test.cpp: `scree run --resume`: files of a run that was stopped, killed or prolonged equal those of one
+// resume_cli_test.cpp: files of a run that was stopped, killed or prolonged equal those of one that was not.
 // that was not; what cannot be resumed is said. SPDX-License-Identifier: Apache-2.0
 #include <fcntl.h>
 #include <gtest/gtest.h>
