@@ -1,6 +1,6 @@
 // checkpoint.h: all that a run needs to go on with the same bits, and its file: HDF5 behind the 512-byte user block,
 // written under a temporary name, fsynced, renamed; the CRC is checked before libhdf5 sees the file.
-// under a temporary name, fsynced, renamed: a file under its own name is whole. SPDX-License-Identifier: Apache-2.0
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>

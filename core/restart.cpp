@@ -55,10 +55,15 @@ void require_same_sizes(State const& fresh, State const& saved) {
 }
 
 void require_sound_measures(State const& fresh, State const& saved) {
-  for (std::size_t k = 0; k < fresh.measure.size(); ++k)
+  for (std::size_t k = 0; k < fresh.measure.size(); ++k) {
+    std::size_t const memory = fresh.measure[k].memory.size();  // 0: not before the first sample
+    if (memory > 0 && saved.measure[k].memory.size() != memory)
+      refuse_content(fmt::format("[[measure]] entry {} remembers {} numbers where the case has {}", k,
+                                 saved.measure[k].memory.size(), memory));
     if (saved.measure[k].moments.size() != fresh.measure[k].moments.size())
       refuse_content(fmt::format("[[measure]] entry {} has {} quantities where the case has {}", k,
                                  saved.measure[k].moments.size(), fresh.measure[k].moments.size()));
+  }
 }
 
 void require_sound_pairs(Scene const& scene, Effects const& effects, PairMemory const& p, State const& s) {

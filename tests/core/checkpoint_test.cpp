@@ -1,5 +1,5 @@
 // checkpoint_test.cpp: the file of a checkpoint: killed writers, damaged files, other versions and cases, the last N.
-// N. SPDX-License-Identifier: Apache-2.0
+// SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 #include <hdf5.h>
 #include <signal.h>

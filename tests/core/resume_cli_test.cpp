@@ -1,5 +1,5 @@
 // resume_cli_test.cpp: files of a run that was stopped, killed or prolonged equal those of one that was not.
-// that was not; what cannot be resumed is said. SPDX-License-Identifier: Apache-2.0
+// SPDX-License-Identifier: Apache-2.0
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
