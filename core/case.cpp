@@ -151,6 +151,9 @@ void read_insert(CaseReader r, InsertCase& out) {
     r.report("orientation", "has no meaning beside quaternion: remove one of them");
   r.vector("velocity", out.velocity);
   r.vector("spin", out.spin);
+  bool const placed = out.kind == Kind::list || out.kind == Kind::file;
+  if (r.vector("scatter", out.scatter) && !placed)
+    r.report("scatter", "has a meaning beside kind = \"list\" and \"file\" only: other places are free choices");
   r.finish();
 }
 
@@ -215,7 +218,8 @@ void read_grains(CaseReader r, GrainsCase& out) {
   bool const listed = filed || (insert && out.insert.kind == InsertCase::Kind::list);
   if (!r.integer("count", out.count, listed ? Need::optional : Need::required) && listed)
     out.count = filed ? -1 : static_cast<int>(out.insert.position.size());
-  r.unsupported({"replicas", "group"});
+  r.boolean("apart", out.apart);
+  r.unsupported({"group"});
   r.finish();
 }
 
@@ -251,7 +255,7 @@ void read_case(CaseReader root, Case& out) {
     std::int64_t seed = static_cast<std::int64_t>(out.seed);
     if (header->integer("seed", seed) && seed < 0) header->report("seed", fmt::format("{} must be >= 0", seed));
     out.seed = static_cast<std::uint64_t>(seed);
-    header->unsupported({"replicas"});
+    header->integer("replicas", out.replicas);
     header->finish();
   }
   if (auto time = root.table("time", Need::required)) read_time(*time, out.time);
@@ -269,7 +273,7 @@ void read_case(CaseReader root, Case& out) {
   if (auto output = root.table("output")) read_output(*output, out.output);
   if (auto checkpoint = root.table("checkpoint")) read_checkpoint(*checkpoint, out.checkpoint.emplace());
   if (auto limits = root.table("limits")) read_limits(*limits, out.limits);
-  root.unsupported({"relax", "replicas"});
+  root.unsupported({"relax"});
   root.finish();
 }
 

@@ -109,6 +109,7 @@ struct InsertCase {
   std::filesystem::path file;    // file: comma-separated values (core/insert_file.h), which fill position, quaternion
   std::vector<Vec3> velocities, spins;  // file: as many as positions, or empty: `velocity`, `spin`
   std::vector<int> shape;               // file: index into the entry's shapes, patterns written out; or empty: shares
+  Vec3 scatter;                         // list, file: each grain starts anywhere within +- this of its position [m]
 };
 
 // Grains that never existed, each with a code of its own drawn from those of a category (shapes/generate.h).
@@ -143,6 +144,7 @@ struct GrainsCase {
   NodeStorage storage = NodeStorage::explicit_;
   std::optional<SampleCase> sample{};            // exactly one of shapes, ...
   std::optional<InterpolateCase> interpolate{};  // ... sample and interpolate
+  bool apart = false;                            // grains meet those of their own entry only
 };
 
 // Prescribed motion of a wall. Constant between start and end, or a table: linear between its times, constant beyond.
@@ -203,6 +205,7 @@ struct Case {
   std::filesystem::path file;  // where it came from; empty when built in code
   std::string name = "case";
   std::uint64_t seed = 1;
+  int replicas = 1;  // independent copies of all grains, which never meet
   TimeCase time;
   std::optional<Vec3> gravity;  // [m/s2]; absent: none
   std::optional<DragCase> drag;

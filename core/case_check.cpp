@@ -176,7 +176,8 @@ void Checker::touching_pairs() {
     GrainsCase const& a = c_.grains[i];
     if (a.count > 1) needed.insert({a.material, a.material});
     for (std::size_t j = i + 1; j < c_.grains.size(); ++j)
-      if (a.count > 0 && c_.grains[j].count > 0) needed.insert(std::minmax(a.material, c_.grains[j].material));
+      if (a.count > 0 && c_.grains[j].count > 0 && !a.apart && !c_.grains[j].apart)
+        needed.insert(std::minmax(a.material, c_.grains[j].material));
     for (WallCase const& w : c_.wall)
       if (a.count > 0) needed.insert(std::minmax(a.material, w.material));
   }
@@ -259,6 +260,8 @@ void Checker::insertion(std::string const& key, GrainsCase const& g) {
   InsertCase const& insert = g.insert;
   finite(key + ".insert.velocity", insert.velocity);
   finite(key + ".insert.spin", insert.spin);
+  for (int k = 0; k < 3; ++k)
+    range(key + ".insert.scatter", insert.scatter[k], 0, true, infinity, "m to both sides of the position, each axis");
   using Kind = InsertCase::Kind;
   if (insert.kind == Kind::list || insert.kind == Kind::file) {
     std::size_t const n = insert.position.size();
@@ -303,6 +306,10 @@ void Checker::insertion(std::string const& key, GrainsCase const& g) {
 
 void Checker::grains() {
   names(c_.grains, "grains");
+  double grains = 0;
+  for (GrainsCase const& g : c_.grains) grains += std::max(0, g.count);
+  range("case.replicas", c_.replicas, 1, true, std::floor(1e8 / std::max(1.0, grains)),
+        "copies of all grains, 1e8 grains in all");
   for (std::size_t i = 0; i < c_.grains.size(); ++i) {
     GrainsCase const& g = c_.grains[i];
     std::string const at = fmt::format("grains.{}", i);

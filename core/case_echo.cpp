@@ -122,9 +122,11 @@ void write_grains(std::string& out, GrainsCase const& g) {
       "nodes = {}\nstorage = \"{}\"\ncount = {}\ndiameter = {}  # [m]\n", g.nodes,
       g.storage == NodeStorage::compact ? "compact" : "explicit", g.count,
       g.least_diameter ? fmt::format("[{}, {}]", *g.least_diameter, g.diameter) : fmt::format("{}", g.diameter));
+  if (g.apart) out += "apart = true\n";
   InsertCase const& i = g.insert;
-  std::string const moving =
-      fmt::format("velocity = {}, spin = {}", toml_vector(i.velocity), toml_vector(i.spin));  // [m/s], [rad/s]
+  std::string const scatter = i.scatter == Vec3{} ? "" : fmt::format(", scatter = {}", toml_vector(i.scatter));  // [m]
+  std::string const moving = fmt::format("velocity = {}, spin = {}{}", toml_vector(i.velocity), toml_vector(i.spin),
+                                         scatter);  // [m/s], [rad/s]
   using Kind = InsertCase::Kind;
   if (i.kind == Kind::random || i.kind == Kind::rate)
     out += fmt::format("insert = {{ kind = \"{}\", box = {}, {}orientation = \"{}\", {} }}\n",
@@ -150,6 +152,7 @@ void write_grains(std::string& out, GrainsCase const& g) {
 
 std::string to_toml(Case const& c) {
   std::string out = fmt::format("[case]\nname = {}\nseed = {}\n", toml_quoted(c.name), c.seed);
+  if (c.replicas != 1) out += fmt::format("replicas = {}\n", c.replicas);
   write_time(out, c.time);
   if (c.gravity) out += fmt::format("\n[gravity]\nacceleration = {}  # [m/s2]\n", toml_vector(*c.gravity));
   out += effects_to_toml(c);

@@ -173,8 +173,9 @@ std::vector<Key> const& keys() {
        [](Case const& c, M const& m, Fail const& fail) {
          for (GrainsCase const& g : c.grains)
            for (double const i : m.index)
-             if (g.name == m.grains && !(i >= 0 && i < g.count && i == std::floor(i)))
-               fail("index", fmt::format("{} is none of the {} grains of '{}', counted from 0", i, g.count, g.name));
+             if (double const n = double(g.count) * c.replicas;
+                 g.name == m.grains && !(i >= 0 && i < n && i == std::floor(i)))
+               fail("index", fmt::format("{} is none of the {} grains of '{}', counted from 0", i, n, g.name));
        },
        [](M const& m) { return m.index.empty() ? "" : fmt::format("index = [{}]\n", fmt::join(m.index, ", ")); }},
   };

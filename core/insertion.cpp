@@ -31,12 +31,12 @@ double bounding_radius(Scene const& scene, int body) {
   return scene.shape[scene.shape_of[body]].bounding_radius * scene.diameter[body];
 }
 
-// Bounding spheres of the active bodies that reach into the box.
-SphereGrid occupied(Scene const& scene, State const& state, Box const& box, double own_radius) {
+// Bounding spheres of the active bodies of a world that reach into the box.
+SphereGrid occupied(Scene const& scene, State const& state, Box const& box, int world, double own_radius) {
   std::vector<int> near;
   double largest = own_radius;
   for (int i = 0; i < scene.bodies(); ++i) {
-    if (!state.is_active(i)) continue;
+    if (!state.is_active(i) || scene.world(i) != world) continue;
     double const r = bounding_radius(scene, i);
     Vec3 const x = state.position[i];
     bool const reaches = x.x + r > box.min.x && x.y + r > box.min.y && x.z + r > box.min.z && x.x - r < box.max.x &&
@@ -63,32 +63,32 @@ void activate(Case const& c, Scene const& scene, int body, Vec3 position, State&
 void start_insertion(Case const& c, Scene const& scene, State& state) {
   bool const fresh = state.activity.empty();
   if (fresh) state.activity.assign(scene.bodies(), Activity::active);
-  state.insertion.assign(c.grains.size(), {});
-  int body = 0;
-  for (std::size_t g = 0; g < c.grains.size(); ++g) {
-    Insertion& in = state.insertion[g];
-    in.random = random_stream(c.seed, static_cast<int>(g), Draw::places)();
-    auto const first = state.activity.begin() + body, end = first + c.grains[g].count;
-    body += c.grains[g].count;
-    if (!over_time(c.grains[g])) continue;
+  std::vector<GrainEntry> const entries = entries_of(c);
+  state.insertion.assign(entries.size(), {});
+  for (std::size_t e = 0; e < entries.size(); ++e) {
+    Insertion& in = state.insertion[e];
+    in.random = random_stream(entries[e].seed, entries[e].group, Draw::places)();
+    auto const first = state.activity.begin() + entries[e].first, end = first + entries[e].count;
+    if (!over_time(c.grains[entries[e].group])) continue;
     if (fresh) std::fill(first, end, Activity::pending);
-    in.done = c.grains[g].count - static_cast<int>(std::count(first, end, Activity::pending));
+    in.done = entries[e].count - static_cast<int>(std::count(first, end, Activity::pending));
   }
 }
 
 void insert_due(Queue const& queue, Case const& c, Scene const& scene, State& state, Workspace& work,
                 std::vector<std::string>& messages) {
-  int first = 0;  // body of the entry
-  for (std::size_t g = 0; g < c.grains.size(); first += c.grains[g++].count) {
-    GrainsCase const& grains = c.grains[g];
-    Insertion& in = state.insertion[g];
+  std::vector<GrainEntry> const entries = entries_of(c);
+  for (std::size_t e = 0; e < entries.size(); ++e) {
+    GrainsCase const& grains = c.grains[entries[e].group];
+    int const first = entries[e].first;
+    Insertion& in = state.insertion[e];
     if (!over_time(grains) || in.done >= due_by(grains, state.time)) continue;
     int const due = due_by(grains, state.time);
     ScopedTimer const timer(queue.profile, "insertion/places", due - in.done);
     Box const& box = grains.insert.box;
     double own = 0;
     for (int k = in.done; k < due; ++k) own = std::max(own, bounding_radius(scene, first + k));
-    SphereGrid grid = occupied(scene, state, box, own);
+    SphereGrid grid = occupied(scene, state, box, scene.world(first), own);
     while (in.done < due) {
       int const body = first + in.done;
       double const own_radius = bounding_radius(scene, body);
@@ -107,10 +107,10 @@ void insert_due(Queue const& queue, Case const& c, Scene const& scene, State& st
       // Said once, counted from then on: a hopper that runs full blocks at every other grain.
       if (++in.blocked_times > 1) continue;
       messages.push_back(
-          fmt::format("t = {:.4g} s: insertion of grains '{}' is blocked: grain {} finds no free place in its box; it "
+          fmt::format("t = {:.4g} s: insertion of {} is blocked: grain {} finds no free place in its box; it "
                       "is tried again "
                       "at every step",
-                      state.time, grains.name, in.done + 1));
+                      state.time, name_of(c, entries[e]), in.done + 1));
     } else if (in.done >= due && in.blocked_since >= 0) {
       in.blocked_seconds += state.time - in.blocked_since;
       in.blocked_since = -1;
@@ -119,15 +119,18 @@ void insert_due(Queue const& queue, Case const& c, Scene const& scene, State& st
 }
 
 bool all_inserted(Case const& c, State const& state) {
-  for (std::size_t g = 0; g < state.insertion.size(); ++g)
-    if (over_time(c.grains[g]) && state.insertion[g].done < c.grains[g].count) return false;
+  for (std::size_t e = 0; e < state.insertion.size(); ++e) {
+    GrainsCase const& grains = c.grains[e % c.grains.size()];
+    if (over_time(grains) && state.insertion[e].done < grains.count) return false;
+  }
   return true;
 }
 
 void report_insertion(Case const& c, State const& state, std::vector<std::string>& messages) {
-  for (std::size_t g = 0; g < c.grains.size(); ++g) {
-    GrainsCase const& grains = c.grains[g];
-    Insertion const& in = state.insertion[g];
+  std::vector<GrainEntry> const entries = entries_of(c);
+  for (std::size_t e = 0; e < entries.size(); ++e) {
+    GrainsCase const& grains = c.grains[entries[e].group];
+    Insertion const& in = state.insertion[e];
     if (!over_time(grains)) continue;
     bool const blocked = in.blocked_since >= 0;
     double const seconds = in.blocked_seconds + (blocked ? state.time - in.blocked_since : 0);
@@ -135,11 +138,11 @@ void report_insertion(Case const& c, State const& state, std::vector<std::string
         fmt::format("blocked {} time{}, {:.3g} s in all", in.blocked_times, in.blocked_times == 1 ? "" : "s", seconds);
     if (in.done < grains.count)
       messages.push_back(
-          fmt::format("grains '{}': {} of {} are not inserted; {}", grains.name, grains.count - in.done, grains.count,
+          fmt::format("{}: {} of {} are not inserted; {}", name_of(c, entries[e]), grains.count - in.done, grains.count,
                       blocked ? waits + ": a larger box, a lower rate or a way out of the box lets them in"
                               : fmt::format("at {} a second they need more time", grains.insert.rate)));
     else if (in.blocked_times > 0)
-      messages.push_back(fmt::format("grains '{}': insertion was {}", grains.name, waits));
+      messages.push_back(fmt::format("{}: insertion was {}", name_of(c, entries[e]), waits));
   }
 }
 

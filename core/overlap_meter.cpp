@@ -76,6 +76,7 @@ std::vector<OverlapAt> candidates(Meter const& meter) {
     double const right = meter.frame.position[i].x + meter.radius(i);
     for (int l = k + 1; l < n && left(order[l]) <= right; ++l) {
       int const j = order[l];
+      if (!meter.header.world.empty() && meter.header.world[i] != meter.header.world[j]) continue;
       double const reach = meter.radius(i) + meter.radius(j);
       if (norm2(meter.frame.position[i] - meter.frame.position[j]) <= reach * reach)
         pairs.push_back({0, std::min(i, j), std::max(i, j)});

@@ -34,12 +34,12 @@ struct Lattice {
   }
 };
 
-// Lattice of all entries that share the box of `c.grains[group]`.
-Lattice lattice_for(Case const& c, Scene const& scene, Box const& box) {
+// Lattice of all entries of one world that share `box`.
+Lattice lattice_for(Case const& c, Scene const& scene, Box const& box, int world) {
   Lattice lattice;
   for (int i = 0; i < scene.bodies(); ++i) {
     InsertCase const& insert = c.grains[scene.group_of[i]].insert;
-    if (insert.kind == InsertCase::Kind::lattice && same_box(insert.box, box))
+    if (insert.kind == InsertCase::Kind::lattice && same_box(insert.box, box) && scene.world(i) == world)
       lattice.cell = std::max(lattice.cell, 2 * scene.shape[scene.shape_of[i]].bounding_radius * scene.diameter[i]);
   }
   lattice.cell *= 1 + 1e-6;  // bounding spheres of neighbours do not touch, rounded either way
@@ -59,34 +59,36 @@ std::mt19937_64 random_stream(std::uint64_t seed, int group, Draw purpose) {
   return std::mt19937_64(sequence);
 }
 
-std::vector<int> assign_shapes(Case const& c, int group, std::vector<int> const& templates) {
-  int const n = c.grains[group].count;
+std::vector<int> assign_shapes(Case const& c, GrainEntry const& entry, std::vector<int> const& templates) {
+  int const n = entry.count;
   std::vector<int> shape(n);
-  if (std::vector<int> const& chosen = c.grains[group].insert.shape; !chosen.empty()) {
+  if (std::vector<int> const& chosen = c.grains[entry.group].insert.shape; !chosen.empty()) {
     for (int i = 0; i < n; ++i) shape[i] = templates[chosen[i]];
     return shape;
   }
   for (int i = 0; i < n; ++i) shape[i] = templates[i % templates.size()];
-  std::mt19937_64 random = random_stream(c.seed, group, Draw::shapes);
+  std::mt19937_64 random = random_stream(entry.seed, entry.group, Draw::shapes);
   for (int i = n - 1; i > 0; --i) std::swap(shape[i], shape[static_cast<int>(uniform(random) * (i + 1))]);
   return shape;
 }
 
 namespace {
 
-// Lattices by their boxes, made as they are asked for; null: the entry does not fit and was reported.
+// Lattices by their worlds and boxes, made as they are asked for; null: the entry does not fit and was reported.
 class Lattices {
  public:
   Lattices(Case const& c, Scene const& scene, std::vector<std::string>& found) : c_(c), scene_(scene), found_(found) {}
 
-  Lattice* of(std::size_t group) {
-    GrainsCase const& grains = c_.grains[group];
+  Lattice* of(GrainEntry const& entry) {
+    GrainsCase const& grains = c_.grains[entry.group];
     Box const& box = grains.insert.box;
-    auto at = std::find_if(made_.begin(), made_.end(), [&](auto const& l) { return same_box(l.first, box); });
-    if (at == made_.end()) at = made_.insert(made_.end(), {box, lattice_for(c_, scene_, box)});
-    Lattice& lattice = at->second;
+    int const world = scene_.world(entry.first);
+    auto at = std::find_if(made_.begin(), made_.end(),
+                           [&](Made const& m) { return m.world == world && same_box(m.box, box); });
+    if (at == made_.end()) at = made_.insert(made_.end(), {world, box, lattice_for(c_, scene_, box, world)});
+    Lattice& lattice = at->lattice;
     if (lattice.used + grains.count <= lattice.capacity()) return &lattice;
-    found_.push_back("grains '" + grains.name + "': insert.box holds " + std::to_string(lattice.capacity()) +
+    found_.push_back(name_of(c_, entry) + ": insert.box holds " + std::to_string(lattice.capacity()) +
                      " grains (cell " + std::to_string(lattice.cell) + " m), but " +
                      std::to_string(lattice.used + grains.count) +
                      " are to start in it. Make the box larger or count smaller.");
@@ -97,7 +99,12 @@ class Lattices {
   Case const& c_;
   Scene const& scene_;
   std::vector<std::string>& found_;
-  std::vector<std::pair<Box, Lattice>> made_;
+  struct Made {
+    int world;
+    Box box;
+    Lattice lattice;
+  };
+  std::vector<Made> made_;
 };
 
 // Where grains wait that are inserted later: the corner of their box that gravity leaves highest, so that the fall
@@ -113,44 +120,49 @@ double bounding_radius(Scene const& scene, int body) {
   return scene.shape[scene.shape_of[body]].bounding_radius * scene.diameter[body];
 }
 
+// A place within +- `reach` of `centre`; without a reach nothing is added, not even zero.
+Vec3 scattered(Vec3 centre, Vec3 reach, std::mt19937_64& random) {
+  for (int k = 0; k < 3; ++k)
+    if (reach[k] > 0) centre[k] += reach[k] * (2 * uniform(random) - 1);
+  return centre;
+}
+
 // Draws for a grain before it is refused: random placement of spheres slows down without bound near 38 % by volume.
 int constexpr random_tries = 20000;
 
 // Entries with insert.kind = "random", once all others that are there at the start have their places.
 void place_at_random(Case const& c, Scene const& scene, Placement& out, std::vector<std::string>& found) {
-  auto const kind_of = [&](int body) { return c.grains[scene.group_of[body]].insert.kind; };
-  int const n = scene.bodies();
+  std::vector<GrainEntry> const entries = entries_of(c);
+  auto const kind_of = [&](GrainEntry const& e) { return c.grains[e.group].insert.kind; };
+  using Kind = InsertCase::Kind;
+  if (std::none_of(entries.begin(), entries.end(), [&](auto const& e) { return kind_of(e) == Kind::random; })) return;
   double largest = 0;
-  bool wanted = false;
-  for (int i = 0; i < n; ++i) {
-    largest = std::max(largest, bounding_radius(scene, i));
-    wanted = wanted || kind_of(i) == InsertCase::Kind::random;
-  }
-  if (!wanted) return;
-  SphereGrid grid(largest);
-  for (int i = 0; i < n; ++i)
-    if (kind_of(i) != InsertCase::Kind::random && kind_of(i) != InsertCase::Kind::rate)
-      grid.add(out.position[i], bounding_radius(scene, i));
-  std::uint64_t random = 0;
-  for (int i = 0, first = 0; i < n; ++i) {
-    if (kind_of(i) != InsertCase::Kind::random) continue;
-    int const group = scene.group_of[i];
-    if (i == 0 || scene.group_of[i - 1] != group) first = i, random = random_stream(c.seed, group, Draw::places)();
-    GrainsCase const& grains = c.grains[group];
-    // A little larger, so that rounding leaves no overlap, and out of the reach of cohesion.
-    double const radius = bounding_radius(scene, i) * (1 + 1e-9) + scene.cohesion_margin;
-    std::optional<Vec3> const spot =
-        find_free_spot(grains.insert.box, radius, grid, WallClearance(scene), random_tries, random);
-    if (!spot) {
-      found.push_back("grains '" + grains.name + "': grain " + std::to_string(i - first + 1) + " of " +
-                      std::to_string(grains.count) + ", bounding diameter " + std::to_string(2 * radius) +
-                      " m, found no free place in insert.box in " + std::to_string(random_tries) +
-                      " random tries (inside the box, in front of the walls, clear of other grains). Make the box "
-                      "larger or count smaller; kind = \"lattice\" packs closer.");
-      return;
+  for (int i = 0; i < scene.bodies(); ++i) largest = std::max(largest, bounding_radius(scene, i));
+  if (largest == 0) return;
+  std::vector<SphereGrid> grid(scene.worlds(), SphereGrid(largest));
+  for (GrainEntry const& e : entries)
+    for (int i = e.first; i < e.first + e.count; ++i)
+      if (kind_of(e) != Kind::random && kind_of(e) != Kind::rate)
+        grid[scene.world(i)].add(out.position[i], bounding_radius(scene, i));
+  for (GrainEntry const& e : entries) {
+    if (kind_of(e) != Kind::random) continue;
+    std::uint64_t random = random_stream(e.seed, e.group, Draw::places)();
+    for (int i = e.first; i < e.first + e.count; ++i) {
+      // A little larger, so that rounding leaves no overlap, and out of the reach of cohesion.
+      double const radius = bounding_radius(scene, i) * (1 + 1e-9) + scene.cohesion_margin;
+      std::optional<Vec3> const spot = find_free_spot(c.grains[e.group].insert.box, radius, grid[scene.world(i)],
+                                                      WallClearance(scene), random_tries, random);
+      if (!spot) {
+        found.push_back(name_of(c, e) + ": grain " + std::to_string(i - e.first + 1) + " of " +
+                        std::to_string(e.count) + ", bounding diameter " + std::to_string(2 * radius) +
+                        " m, found no free place in insert.box in " + std::to_string(random_tries) +
+                        " random tries (inside the box, in front of the walls, clear of other grains). Make the box "
+                        "larger or count smaller; kind = \"lattice\" packs closer.");
+        return;
+      }
+      out.position[i] = *spot;
+      grid[scene.world(i)].add(*spot, bounding_radius(scene, i) * (1 + 1e-9));
     }
-    out.position[i] = *spot;
-    grid.add(*spot, bounding_radius(scene, i) * (1 + 1e-9));
   }
 }
 
@@ -179,15 +191,16 @@ Placement place_grains(Case const& c, Scene const& scene, std::vector<std::strin
   using Kind = InsertCase::Kind;
   Placement out;
   Lattices lattices(c, scene, found);
-  for (std::size_t g = 0; g < c.grains.size(); ++g) {
-    InsertCase const& insert = c.grains[g].insert;
-    std::mt19937_64 random = random_stream(c.seed, static_cast<int>(g), Draw::poses);
+  for (GrainEntry const& entry : entries_of(c)) {
+    InsertCase const& insert = c.grains[entry.group].insert;
+    std::mt19937_64 random = random_stream(entry.seed, entry.group, Draw::poses);
+    std::mt19937_64 scatter = random_stream(entry.seed, entry.group, Draw::scatter);
     Lattice* lattice = nullptr;
-    if (insert.kind == Kind::lattice && c.grains[g].count > 0 && !(lattice = lattices.of(g))) return out;
+    if (insert.kind == Kind::lattice && entry.count > 0 && !(lattice = lattices.of(entry))) return out;
     bool const listed = insert.kind == Kind::list || insert.kind == Kind::file;
-    for (int i = 0; i < c.grains[g].count; ++i) {
+    for (int i = 0; i < entry.count; ++i) {
       out.position.push_back(lattice  ? lattice->site(lattice->used++)
-                             : listed ? insert.position[i]
+                             : listed ? scattered(insert.position[i], insert.scatter, scatter)
                                       : waiting_place(c, insert.box));
       Quat orientation;
       if (!insert.quaternion.empty())

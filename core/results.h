@@ -35,6 +35,7 @@ struct ResultsHeader {
   std::vector<int> shape;                     // of body (n): index into shape_name and library.shape
   std::vector<double> diameter;               // [m] (n)
   std::vector<int> material, group, replica;  // (n)
+  std::vector<int> world;                     // bodies of different worlds never meet (n); empty: all meet
   std::vector<ResultsWall> wall;
   std::vector<ResultsSurface> surface;
   Box domain;                       // of walls and initial grains, for cameras [m]

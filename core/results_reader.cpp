@@ -100,8 +100,10 @@ ResultsHeader read_header(hid_t file) {
   h.material = read_array<int>(bodies, "material");
   h.group = read_array<int>(bodies, "group");
   h.replica = read_array<int>(bodies, "replica");
+  if (hdf5::has_dataset(bodies, "world")) h.world = read_array<int>(bodies, "world");
   std::size_t const n = h.shape.size();
-  bool const same = h.diameter.size() == n && h.material.size() == n && h.group.size() == n && h.replica.size() == n;
+  bool const same = h.diameter.size() == n && h.material.size() == n && h.group.size() == n && h.replica.size() == n &&
+                    (h.world.empty() || h.world.size() == n);
   int const shapes = static_cast<int>(h.library.shape.size());
   bool const known = std::all_of(h.shape.begin(), h.shape.end(), [&](int s) { return s >= 0 && s < shapes; });
   if (!same || !known || h.shape_name.size() != h.library.shape.size())

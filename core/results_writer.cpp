@@ -86,6 +86,7 @@ void write_header(hid_t file, ResultsHeader const& h, fs::path const& temporary)
   write_array(bodies, "material", h.material.data(), n);
   write_array(bodies, "group", h.group.data(), n);
   write_array(bodies, "replica", h.replica.data(), n);
+  if (!h.world.empty()) write_array(bodies, "world", h.world.data(), n);
   write_walls(file, h.wall);
   write_surfaces(file, h.surface);
   write_array(file, "domain", &h.domain.min.x, {2, 3});
@@ -96,7 +97,8 @@ void write_header(hid_t file, ResultsHeader const& h, fs::path const& temporary)
 
 void check_header(ResultsHeader const& h) {
   std::size_t const n = h.shape.size();
-  if (h.diameter.size() != n || h.material.size() != n || h.group.size() != n || h.replica.size() != n)
+  if (h.diameter.size() != n || h.material.size() != n || h.group.size() != n || h.replica.size() != n ||
+      (!h.world.empty() && h.world.size() != n))
     throw std::invalid_argument("ResultsWriter: arrays of the header differ in length");
   if (h.shape_name.size() != h.library.shape.size())
     throw std::invalid_argument("ResultsWriter: shape_name and library.shape differ in length");

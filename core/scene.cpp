@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/grain_entries.h"
 #include "core/placement.h"
 #include "core/scene_shapes.h"
 #include "core/wall_bodies.h"
@@ -24,6 +25,7 @@ SceneView Scene::view() const {
   v.sdf = {coefficient, grid_value, mesh_node, mesh_corner, mesh_normal};
   v.shape_of = shape_of;
   v.material_of = material_of;
+  v.world_of = world_of;
   v.diameter = diameter;
   v.mass = mass;
   v.inertia = inertia;
@@ -94,26 +96,16 @@ void build_contacts(Case const& c, Scene& scene, std::vector<std::string>& found
   for (GrainsCase const& g : c.grains) largest = std::max(largest, g.diameter);
   for (MaterialCase const& m : c.material) scene.material.push_back(m.name);
   scene.contact.assign(std::size_t(n) * n, {});
-  std::vector<char> given(std::size_t(n) * n, 0);
   for (ContactCase const& contact : c.contact) {
     int const a = material_index(c, contact.pair.first), b = material_index(c, contact.pair.second);
     if (a < 0 || b < 0) continue;
     try {
       ContactParameters const p = parameters_of(contact, largest);
-      for (int k : {a * n + b, b * n + a}) scene.contact[k] = p, given[k] = 1;
+      for (int k : {a * n + b, b * n + a}) scene.contact[k] = p;
     } catch (std::invalid_argument const& e) {
       found.push_back("contact '" + contact.pair.first + "' - '" + contact.pair.second + "': " + e.what());
     }
   }
-  std::vector<char> carried(n, 0), used(n, 0);
-  for (GrainsCase const& g : c.grains) carried[material_index(c, g.material)] = used[material_index(c, g.material)] = 1;
-  for (WallCase const& w : c.wall) used[material_index(c, w.material)] = 1;
-  for (int a = 0; a < n; ++a)
-    for (int b = a; b < n; ++b)
-      if (used[a] && used[b] && (carried[a] || carried[b]) && !given[a * n + b])
-        found.push_back("materials '" + c.material[a].name + "' and '" + c.material[b].name +
-                        "' can meet, but no [[contact]] has pair = [\"" + c.material[a].name + "\", \"" +
-                        c.material[b].name + "\"]");
   for (ContactParameters const& p : scene.contact) {
     scene.friction = scene.friction || p.friction > 0;
     scene.rolling = scene.rolling || p.rolling > 0;
@@ -123,22 +115,39 @@ void build_contacts(Case const& c, Scene& scene, std::vector<std::string>& found
   scene.cohesion_margin = scene.cohesion_reach / std::min(1.0, c.limits.gradient_low);
 }
 
-void add_bodies(Case const& c, std::vector<std::vector<int>> const& templates, Scene& scene) {
-  for (std::size_t g = 0; g < c.grains.size(); ++g) {
-    GrainsCase const& grains = c.grains[g];
+void add_bodies(Case const& c, std::vector<GrainEntry> const& entries, std::vector<std::vector<int>> const& templates,
+                Scene& scene) {
+  bool const worlds = has_worlds(entries);
+  for (std::size_t e = 0; e < entries.size(); ++e) {
+    GrainsCase const& grains = c.grains[entries[e].group];
     int const material = material_index(c, grains.material);
     double const density = c.material[material].density, least = grains.least_diameter.value_or(grains.diameter);
-    std::mt19937_64 random = random_stream(c.seed, static_cast<int>(g), Draw::sizes);
-    for (int shape : assign_shapes(c, static_cast<int>(g), templates[g])) {
+    std::mt19937_64 random = random_stream(entries[e].seed, entries[e].group, Draw::sizes);
+    for (int shape : assign_shapes(c, entries[e], templates[e])) {
       Shape const s = scene.template_shape(shape);
       scene.shape_of.push_back(shape);
       scene.material_of.push_back(material);
-      scene.group_of.push_back(static_cast<int>(g));
+      scene.group_of.push_back(entries[e].group);
+      if (worlds) scene.world_of.push_back(entries[e].world);
       double const d = grains.least_diameter ? least + (grains.diameter - least) * uniform(random) : grains.diameter;
       scene.diameter.push_back(d);
       scene.mass.push_back(density * s.volume * d * d * d);
       scene.inertia.push_back(s.inertia * (density * d * d * d * d * d));
     }
+  }
+}
+
+// Templates of each entry, as one replica's entries name them; what is drawn at random is drawn for every replica.
+void make_templates(Case const& c, std::vector<GrainEntry> const& entries, int threads, ShapeCatalogue& catalogue,
+                    Scene& scene, std::vector<std::vector<int>>& templates, std::vector<std::string>& found) {
+  std::size_t const groups = c.grains.size();
+  for (std::size_t e = 0; e < entries.size(); ++e) {
+    GrainsCase const& grains = c.grains[entries[e].group];
+    bool const random = grains.sample || (grains.interpolate && grains.interpolate->random);
+    if (random || (grains.interpolate && e < groups))
+      templates[e] = catalogue.make_templates(grains, entries[e].group, entries[e].seed, scene, threads, found);
+    else if (e >= groups)
+      templates[e] = templates[entries[e].group];
   }
 }
 
@@ -150,12 +159,12 @@ Scene build_scene(Case const& c, int threads, Placement& placement) {
   Scene scene;
   build_contacts(c, scene, found);
   ShapeCatalogue catalogue(c, found);
+  std::vector<GrainEntry> const entries = entries_of(c);
   std::vector<std::vector<int>> templates;
   for (GrainsCase const& grains : c.grains) templates.push_back(catalogue.templates_for(grains, scene, found));
   if (!found.empty()) throw InputError(found);
-  for (std::size_t g = 0; g < c.grains.size(); ++g)
-    if (c.grains[g].sample || c.grains[g].interpolate)
-      templates[g] = catalogue.make_templates(c, static_cast<int>(g), scene, threads, found);
+  templates.resize(entries.size());
+  make_templates(c, entries, threads, catalogue, scene, templates, found);
   for (std::size_t g = 0; g < c.grains.size(); ++g)
     for (int const shape : c.grains[g].insert.shape)
       if (shape >= static_cast<int>(templates[g].size())) {
@@ -168,7 +177,7 @@ Scene build_scene(Case const& c, int threads, Placement& placement) {
   bool const sphere_nodes = std::any_of(walls.begin(), walls.end(),
                                         [](WallSolid const& w) { return !meets_spheres_in_closed_form(w.record); });
   catalogue.finish(scene, templates, sphere_nodes, threads, found);
-  add_bodies(c, templates, scene);
+  add_bodies(c, entries, templates, scene);
   add_wall_bodies(c, walls, scene);
   placement = place_grains(c, scene, found);
   if (!found.empty()) throw InputError(found);

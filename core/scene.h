@@ -3,6 +3,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
@@ -63,6 +64,7 @@ struct Scene {
   // Bodies: grains (n_bodies), then walls.
   std::vector<int> shape_of, material_of;  // (n_solids)
   std::vector<int> group_of;               // index of the [[grains]] entry (n_bodies)
+  std::vector<int> world_of;               // see SceneView; empty: all meet (n_bodies)
   std::vector<double> diameter, mass;      // [m], [kg] (n_solids)
   std::vector<Vec3> inertia;               // principal [kg m2] (n_solids)
   std::vector<WallBody> wall;              // (n_walls)
@@ -78,6 +80,8 @@ struct Scene {
   SceneView view() const;
   // Template as a shape of its own: unique grains are unpacked.
   Shape template_shape(int index) const;
+  int world(int body) const { return world_of.empty() ? 0 : world_of[body]; }
+  int worlds() const { return world_of.empty() ? 1 : 1 + *std::max_element(world_of.begin(), world_of.end()); }
   int bodies() const { return static_cast<int>(group_of.size()); }
   int solids() const { return static_cast<int>(shape_of.size()); }
   int templates() const { return static_cast<int>(shape.size() - wall.size()); }  // of grains; walls follow

@@ -159,13 +159,12 @@ std::vector<char> ShapeCatalogue::star_shaped(CompactGrainMaker const& maker, st
   return yes;
 }
 
-std::vector<int> ShapeCatalogue::make_templates(Case const& c, int group, Scene& scene, int threads,
-                                                std::vector<std::string>& found) {
-  GrainsCase const& grains = c.grains[group];
+std::vector<int> ShapeCatalogue::make_templates(GrainsCase const& grains, int group, std::uint64_t seed, Scene& scene,
+                                                int threads, std::vector<std::string>& found) {
   int const from = library_called(grains.sample ? grains.sample->library : grains.interpolate->library);
   MadeShapes made;
   try {
-    made = make_shapes(libraries_[from], grains, limits_, c.seed, group, threads);
+    made = make_shapes(libraries_[from], grains, limits_, seed, group, threads);
   } catch (std::invalid_argument const& e) {
     found.push_back(fmt::format("grains '{}': {}: {}", grains.name, names_[from].file.filename().string(), e.what()));
   }

@@ -18,10 +18,11 @@ class ShapeCatalogue {
  public:
   ShapeCatalogue(Case const& c, std::vector<std::string>& found);
   std::vector<int> templates_for(GrainsCase const& grains, Scene& scene, std::vector<std::string>& found);
-  // The same for an entry whose shapes are made for the case, `group` its place among the entries: one template a
-  // grain, in the order they were made. After all entries that name shapes. Templates that become unique grains stand
-  // behind all others: negative until finish() has placed them.
-  std::vector<int> make_templates(Case const& c, int group, Scene& scene, int threads, std::vector<std::string>& found);
+  // The same for an entry whose shapes are made for the case, `group` its place among the entries and `seed` that of
+  // its replica: one template a grain, in the order they were made. After all entries that name shapes. Templates that
+  // become unique grains stand behind all others: negative until finish() has placed them.
+  std::vector<int> make_templates(GrainsCase const& grains, int group, std::uint64_t seed, Scene& scene, int threads,
+                                  std::vector<std::string>& found);
   // Fill in records, nodes and networks of all templates, and the places that make_templates left open.
   // Nodes are left out where only closed-form spheres are and `sphere_nodes` is false.
   void finish(Scene& scene, std::vector<std::vector<int>>& templates, bool sphere_nodes, int threads,

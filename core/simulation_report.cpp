@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/certificate_gate.h"
+#include "core/grain_entries.h"
 #include "core/insertion.h"
 #include "core/simulation_impl.h"
 #include "core/unique_grains.h"
@@ -71,11 +72,22 @@ std::vector<Plan::Array> arrays_of(Simulation::Impl const& s) {
   add(s.effects.friction, "contact history",
       bytes(s.state.node_history.xi) + bytes(s.state.node_history.node) + bytes(s.state.sphere_history.xi));
   add(s.effects.force, "applied forces", bytes(s.work.applied) + bytes(s.state.work_applied));
+  add(!s.scene.world_of.empty(), "worlds", bytes(s.scene.world_of));
   add(!s.state.activity.empty(), "activity", bytes(s.state.activity) + bytes(s.state.insertion));
   add(s.effects.drag, "drag", bytes(s.state.removed_by_drag));
   add(s.effects.rolling, "rolling history",
       bytes(s.state.rolling_history.angle) + bytes(s.state.rolling_history.stiffness) + bytes(s.work.rolling));
   return arrays;
+}
+
+// Seeds under which single runs repeat the replicas; of many only the first few.
+std::string replica_note(Case const& c) {
+  int constexpr named = 4;
+  std::string seeds;
+  for (int r = 0; r < std::min(named, c.replicas); ++r)
+    seeds += fmt::format("{}{}", r > 0 ? ", " : "", replica_seed(c.seed, r));
+  return fmt::format("{} replicas, each by itself the case with seed {}{}", c.replicas, seeds,
+                     c.replicas > named ? ", ..." : "");
 }
 
 }  // namespace
@@ -105,6 +117,7 @@ Plan Simulation::plan() const {
         b.grains, b.total() / b.grains, b.nodes / b.grains, b.culling / b.grains, b.bias / b.grains,
         b.record / b.grains, b.host / b.grains));
   for (std::string& note : insertion_notes(s.c)) plan.notes.push_back(std::move(note));
+  if (s.c.replicas > 1) plan.notes.push_back(replica_note(s.c));
   if (plan.bodies == 0) plan.notes.push_back("the case has no grains");
   if (std::isfinite(s.estimate.critical)) {
     plan.notes.push_back(fmt::format(
@@ -132,7 +145,8 @@ ResultsHeader Simulation::results_header() const {
   header.diameter.assign(s.scene.diameter.begin(), s.scene.diameter.begin() + n);
   header.material.assign(s.scene.material_of.begin(), s.scene.material_of.begin() + n);
   header.group = s.scene.group_of;
-  header.replica.assign(s.scene.bodies(), 0);
+  for (GrainEntry const& e : entries_of(s.c)) header.replica.insert(header.replica.end(), e.count, e.replica);
+  header.world = s.scene.world_of;
   for (PlaneRecord const& plane : s.scene.plane)
     header.wall.push_back({s.c.wall[plane.wall].name, plane.point, plane.normal});
   header.surface = wall_surfaces(s.c, s.scene);

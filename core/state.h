@@ -12,7 +12,7 @@
 
 namespace scree {
 
-// Insertion over time of one [[grains]] entry, in the order of its bodies.
+// Insertion over time of one [[grains]] entry of one replica, in the order of its bodies.
 struct Insertion {
   int done = 0;               // bodies inserted
   std::uint64_t random = 0;   // of the places tried
@@ -54,7 +54,7 @@ struct State {
   std::int64_t step = 0;
   // Of runs with insertion over time or deletion; else empty.
   std::vector<Activity> activity;     // (n_bodies)
-  std::vector<Insertion> insertion;   // (n_groups); empty without insertion over time
+  std::vector<Insertion> insertion;   // (n_entries, see core/grain_entries.h); empty without insertion over time
   std::vector<std::int64_t> deleted;  // bodies that left, by [[delete]] entry
   std::vector<Measurement> measure;   // (n_measures)
   // Settle schedule.

@@ -27,6 +27,8 @@ SCREE_HD bool overlap(Box const& a, Box const& b) {
 struct MortonKey {
   Span<const Box> box;
   Box all;
+  Span<const int> world_of;
+  int world_bits;
   Span<std::uint64_t> key;
   Span<int> order;
 
@@ -38,6 +40,8 @@ struct MortonKey {
       t = t > 0 ? (t < 1 ? t : 1) : 0;  // a NaN box becomes 0; the watch reports it
       code |= spread_bits(static_cast<std::uint64_t>(t * 2097151)) << k;
     }
+    // Worlds first: what is left of the 63 bits still orders a world's own bodies.
+    if (!world_of.empty()) code = code >> world_bits | static_cast<std::uint64_t>(world_of[i]) << (63 - world_bits);
     key[i] = code;
     order[i] = i;
   }
@@ -71,6 +75,7 @@ struct ParentBox {
 // Walks the hierarchy for body `leaf`; counts, or with `pair` fills, the pairs it opens.
 struct PairsOfBody {
   Span<const PlaneRecord> plane;
+  Span<const int> world_of;
   Span<const Box> box;
   int grains;
   Span<const int> order;
@@ -90,6 +95,14 @@ struct PairsOfBody {
       row[at] = {body, other};
     }
     ++n;
+  }
+
+  // Whether a node of the hierarchy covers leaves of the body's world: those lie in ascending order of theirs.
+  SCREE_HD bool may_meet(int body, int level, int index) const {
+    if (world_of.empty()) return true;
+    std::int64_t const begin = std::int64_t{index} << level, end = (std::int64_t{index} + 1) << level;
+    int const last = static_cast<int>(end < grains ? end : grains) - 1, mine = world_of[body];
+    return world_of[order[static_cast<int>(begin)]] <= mine && mine <= world_of[order[last]];
   }
 
   SCREE_HD void operator()(int body) const {
@@ -112,7 +125,7 @@ struct PairsOfBody {
     stack[depth++] = {level_first.size() - 2, 0};
     while (depth > 0) {
       Entry const e = stack[--depth];
-      if (!overlap(mine, node[level_first[e.level] + e.index])) continue;
+      if (!may_meet(body, e.level, e.index) || !overlap(mine, node[level_first[e.level] + e.index])) continue;
       if (e.level == 0) {
         int const other = order[e.index];
         if (other > body) emit(body, other, n);
@@ -128,7 +141,15 @@ struct PairsOfBody {
   }
 };
 
-void build_hierarchy(Queue const& queue, Span<const Box> box, BroadPhase& work) {
+// Bits that hold the largest world.
+int bits_of_worlds(Span<const int> world_of) {
+  int bits = 0;
+  for (int const w : world_of)
+    while (w >> bits > 0) ++bits;
+  return bits;
+}
+
+void build_hierarchy(Queue const& queue, Span<const Box> box, Span<const int> world_of, BroadPhase& work) {
   int const n = box.size();
   work.key.resize(n);
   work.order.resize(n);
@@ -138,7 +159,8 @@ void build_hierarchy(Queue const& queue, Span<const Box> box, BroadPhase& work) 
       all.min[k] = std::min(all.min[k], b.min[k]);
       all.max[k] = std::max(all.max[k], b.max[k]);
     }
-  parallel_for(queue, "broad_phase/morton", n, MortonKey{box, all, work.key, work.order}, 1024);
+  parallel_for(queue, "broad_phase/morton", n,
+               MortonKey{box, all, world_of, bits_of_worlds(world_of), work.key, work.order}, 1024);
   sort_by_key(queue, work.key, work.order);
   work.level_first = {0};
   for (int width = n;; width = (width + 1) / 2) {
@@ -161,10 +183,11 @@ void find_pairs(Queue const& queue, SceneView const& scene, Span<const Box> box,
   int const n = box.size() - scene.walls;
   work.pair.clear();
   if (n == 0) return;
-  build_hierarchy(queue, box.subspan(0, n), work);
+  build_hierarchy(queue, box.subspan(0, n), scene.world_of, work);
   work.count.resize(n);
   work.first.resize(n + 1);
-  PairsOfBody functor{scene.plane, box, n, work.order, work.node, work.level_first, work.count, work.first, {}};
+  PairsOfBody functor{scene.plane, scene.world_of,   box,        n,          work.order,
+                      work.node,   work.level_first, work.count, work.first, {}};
   parallel_for(queue, "broad_phase/count", n, functor, 64);
   exclusive_scan(queue, work.count, work.first);
   work.pair.resize(work.first[n]);

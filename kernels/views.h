@@ -83,6 +83,7 @@ struct SceneView {
   Span<const double> diameter;            // of the equal-volume sphere [m]; walls: 1 (n_solids)
   Span<const double> mass;                // [kg]; walls: infinite (n_solids)
   Span<const Vec3> inertia;               // principal, body frame [kg m2]; walls: infinite (n_solids)
+  Span<const int> world_of;               // >= 0; bodies of different worlds never meet (n_bodies); empty: all meet
   Span<const PlaneRecord> plane;          // (n_planes)
   Span<const ContactParameters> contact;  // [material_a * materials + material_b]
   int materials = 0;

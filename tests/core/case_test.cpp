@@ -331,8 +331,21 @@ TEST_F(CaseFile, BuiltInShapesAreChecked) {
 
 TEST_F(CaseFile, UnsupportedKeysAreRefusedByName) {
   expect_one(refused(with(minimal, "count = 5", "count = 5\ngroup = \"a\"")), {"group: is not supported"});
-  expect_one(refused(with(minimal, "name = \"drop\"", "name = \"drop\"\nreplicas = 3")),
-             {"case.replicas: is not supported"});
+}
+
+TEST_F(CaseFile, ReplicasEntriesApartAndScatter) {
+  std::string const text =
+      with(with(minimal, "name = \"drop\"", "name = \"drop\"\nreplicas = 3"), "count = 5", "apart = true\ncount = 5");
+  Case const c = load(text);
+  EXPECT_EQ(c.replicas, 3);
+  EXPECT_TRUE(c.grains.at(0).apart);
+  Case const again = load(to_toml(c));
+  EXPECT_EQ(to_toml(again), to_toml(c));
+  EXPECT_TRUE(again.replicas == 3 && again.grains.at(0).apart);
+  EXPECT_EQ(to_toml(load(minimal)).find("replicas"), std::string::npos);
+  expect_one(refused(with(text, "replicas = 3", "replicas = 0")), {"case.replicas: 0 is out of range: must be >= 1"});
+  expect_one(refused(with(minimal, "kind = \"lattice\"", "kind = \"lattice\", scatter = [0, 0, 1]")),
+             {"insert.scatter: has a meaning beside kind = \"list\" and \"file\" only"});
 }
 
 TEST_F(CaseFile, EffectsOnBodies) {

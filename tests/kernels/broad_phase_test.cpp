@@ -62,6 +62,23 @@ TEST(BroadPhase, FindsExactlyTheOverlappingPairs) {
     }
 }
 
+// Of many worlds, of few, and of some without bodies.
+TEST(BroadPhase, BodiesOfDifferentWorldsNeverPair) {
+  for (int n : {1, 2, 65, 1000})
+    for (int worlds : {1, 2, 3, 50, 100000}) {
+      std::vector<Box> const boxes = random_boxes(n, 100, n);
+      std::vector<int> world;
+      for (int i = 0; i < n; ++i) world.push_back(static_cast<int>((i * 7919L) % worlds));
+      SceneView scene;
+      scene.world_of = world;
+      BroadPhase work;
+      find_pairs({.threads = 2}, scene, boxes, work);
+      std::vector<Pair> expected = brute_force(boxes, {});
+      std::erase_if(expected, [&](Pair p) { return world[p.a] != world[p.b]; });
+      EXPECT_EQ(work.pair, expected) << n << " boxes, " << worlds << " worlds";
+    }
+}
+
 TEST(BroadPhase, CoincidentBoxesAllPair) {
   std::vector<Box> const boxes(20, Box{{0, 0, 0}, {1, 1, 1}});
   BroadPhase work;
