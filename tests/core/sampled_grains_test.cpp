@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <set>
 
+#include "core/grain_entries.h"
 #include "core/sampled_grains.h"
 #include "core/simulation_impl.h"
 #include "shapes/model_file.h"
@@ -207,6 +208,39 @@ TEST_F(MadeGrains, RefusalsSayWhatThereIs) {
 }
 
 TEST_F(MadeGrains, NoGrainsDrawNothing) { EXPECT_EQ(Simulation(sampled(0), {}).plan().shapes, 0); }
+
+// A replica's grains are those of the single case with its seed, in both storages; a fixed line is made once.
+TEST_F(MadeGrains, EachReplicaHasItsOwn) {
+  for (NodeStorage const storage : {NodeStorage::explicit_, NodeStorage::compact}) {
+    Case c = sampled(2, storage);
+    c.replicas = 2;
+    c.time.step = 1e-4;
+    c.time.end = 0.002;
+    Simulation both(c, {});
+    std::vector<Code> const of_both = codes(both);
+    ASSERT_GE(of_both.size(), 4u);
+    while (both.step() == RunState::running) {
+    }
+    for (int r = 0; r < 2; ++r) {
+      Case alone = c;
+      alone.replicas = 1;
+      alone.seed = replica_seed(c.seed, r);
+      Simulation one(alone, {});
+      while (one.step() == RunState::running) {
+      }
+      for (int i = 0; i < 2; ++i) {
+        EXPECT_EQ(of_both[2 * r + i], codes(one)[i]);
+        EXPECT_EQ(both.frame().position[2 * r + i], one.frame().position[i]);
+      }
+    }
+    EXPECT_NE(of_both[0], of_both[2]);
+  }
+  Case line = on_line(3, 0, 1);
+  line.replicas = 2;
+  EXPECT_EQ(Simulation(line, {}).plan().shapes, 3);
+  line.grains[0].interpolate->random = true;
+  EXPECT_EQ(Simulation(line, {}).plan().shapes, 6);
+}
 
 }  // namespace
 }  // namespace scree
