@@ -1,9 +1,10 @@
 // broad_phase.h: pairs of grains whose boxes overlap, and of grains and walls.
 // An implicit bounding volume hierarchy: leaves in Morton order, level k node i covers leaves [i 2^k, (i+1) 2^k).
-// With worlds (SceneView) leaves stand world by world, and no walk enters a part of the hierarchy that has none of its
-// own. No pointers, no atomics, near-linear for any mix of sizes, the same pairs in the same order for any thread
-// count. SPDX-License-Identifier: Apache-2.0
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
+
+// No pointers, no atomics, near-linear for any mix of sizes, the same pairs in the same order for any thread count.
+// With worlds (SceneView) leaves stand world by world, and no walk enters a part that has none of its own.
 
 #include <cstdint>
 #include <vector>
