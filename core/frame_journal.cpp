@@ -88,6 +88,8 @@ bool JournalReader::next(Frame& frame, LedgerRow& row) {
   parts.get(frame.velocity);
   parts.get(frame.spin);
   parts.get(frame.activity);
+  parts.get(frame.wall_position);
+  parts.get(frame.wall_orientation);
   static_assert(std::is_trivially_copyable_v<LedgerRow>);
   parts.get(&row, sizeof(row));
   if (!parts.good || parts.at != payload.size()) return false;
@@ -113,6 +115,8 @@ void JournalWriter::append(Frame const& frame, LedgerRow const& row) {
   put(payload, frame.velocity);
   put(payload, frame.spin);
   put(payload, frame.activity);
+  put(payload, frame.wall_position);
+  put(payload, frame.wall_orientation);
   put(payload, row);
   RecordHead const head{record_magic, payload.size(), checksum(payload)};
   std::memcpy(record.data(), &head, sizeof(head));

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/wall_surface.h"
 #include "shapes/surface_nodes.h"
 
 namespace scree {
@@ -22,6 +23,8 @@ struct Meter {
   std::vector<std::vector<Vec3>> surface;  // of each shape [d]
   std::vector<PhiBatch> sieve;             // of each shape: same zero set as the reference, much cheaper
   std::vector<Mat3> rotation;              // body -> world (n)
+  std::vector<WallPhi> wall_phi;           // of each wall body
+  std::vector<WallPose> wall_pose;
 
   Shape const& shape(int body) const { return header.library.shape[header.shape[body]]; }
   double radius(int body) const { return shape(body).bounding_radius * header.diameter[body]; }  // [m]
@@ -45,7 +48,7 @@ struct Meter {
     return deepest * d;
   }
 
-  double in_wall(int body, ResultsWall const& wall) const {
+  double in_plane(int body, ResultsWall const& wall) const {
     Vec3 const normal = transposed_times(rotation[body], wall.normal);
     double lowest = 0;
     double const height = dot(wall.normal, frame.position[body] - wall.point);
@@ -55,8 +58,26 @@ struct Meter {
     return -lowest;
   }
 
+  // |grad phi| <= 1: no point of a grain whose centre is its radius outside the solid is within it.
+  double in_wall_body(int body, int wall) const {
+    Mat3 const turn = to_matrix(wall_pose[wall].orientation);
+    Vec3 const centre = transposed_times(turn, frame.position[body] - wall_pose[wall].position);
+    if (wall_phi[wall](centre) < -radius(body)) return 0;
+    double deepest = 0;
+    for (Vec3 const p : surface[header.shape[body]]) {
+      Vec3 const arm = rotation[body] * (p * header.diameter[body]);
+      deepest = std::max(deepest, wall_phi[wall](centre + transposed_times(turn, arm)));
+    }
+    return deepest;
+  }
+
+  double in_wall(int body, int wall) const {
+    int const planes = static_cast<int>(header.wall.size());
+    return wall < planes ? in_plane(body, header.wall[wall]) : in_wall_body(body, wall - planes);
+  }
+
   OverlapAt measure(int a, int b) const {
-    if (b < 0) return {in_wall(a, header.wall[-1 - b]) / header.diameter[a], a, b};
+    if (b < 0) return {in_wall(a, -1 - b) / header.diameter[a], a, b};
     double const smaller = std::min(header.diameter[a], header.diameter[b]);
     return {std::max(side(a, b), side(b, a)) / smaller, a, b};
   }
@@ -84,15 +105,20 @@ std::vector<OverlapAt> candidates(Meter const& meter) {
   }
   std::sort(order.begin(), order.end());
   for (int const i : order)
-    for (std::size_t w = 0; w < meter.header.wall.size(); ++w) pairs.push_back({0, i, -1 - static_cast<int>(w)});
+    for (std::size_t w = 0; w < meter.header.wall.size() + meter.header.wall_body.size(); ++w)
+      pairs.push_back({0, i, -1 - static_cast<int>(w)});
   return pairs;
 }
 
 Meter make_meter(ResultsHeader const& header, Frame const& frame, int points, int threads) {
-  Meter meter{header, frame, {}, {}, {}};
+  Meter meter{header, frame, {}, {}, {}, {}, {}};
   Library const& library = header.library;
   for (Shape const& s : library.shape) meter.sieve.push_back(surface_phi(library, s));
   for (Quat const q : frame.orientation) meter.rotation.push_back(to_matrix(q));
+  for (std::size_t w = 0; w < header.wall_body.size(); ++w) {
+    meter.wall_phi.emplace_back(header.wall_body[w]);
+    meter.wall_pose.push_back(scree::wall_pose(header, frame, static_cast<int>(w)));
+  }
   meter.surface.resize(library.shape.size());
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
   for (std::size_t s = 0; s < library.shape.size(); ++s)

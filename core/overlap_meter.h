@@ -11,7 +11,7 @@ namespace scree {
 struct OverlapAt {
   double depth = 0;  // [d]; 0: no such contact
   int a = -1;        // body; -1: none
-  int b = -1;        // body > a, or -1 - wall (index into ResultsHeader::wall)
+  int b = -1;        // body > a, or -1 - wall: index into ResultsHeader::wall and, after its last, ::wall_body
 };
 
 struct OverlapReport {
@@ -26,8 +26,9 @@ struct OverlapReport {
 // Every point of each grain's dense surface (at least `points_per_grain`, the same for all grains of a shape) is tested
 // against every grain whose bounding sphere it is in, and against all walls. As in the engine, nothing outside a
 // bounding sphere is inside the grain. A depth is a lower bound: between points spaced s it misses s^2 / (4 R) for
-// local radius R. Same bits for any number of threads. Cost: 1 s a core for some 5 million points near a partner.
-// Throws std::invalid_argument when the frame and the header disagree in the number of bodies.
+// local radius R; against a wall body it is the phi of its solid, as the engine had it. Same bits for any number of
+// threads. Cost: 1 s a core for some 5 million points near a partner. Throws std::invalid_argument when the frame and
+// the header disagree in the number of bodies or moving walls.
 OverlapReport measure_overlap(ResultsHeader const& header, Frame const& frame, int points_per_grain, int threads);
 
 }  // namespace scree

@@ -13,46 +13,14 @@
 #include <system_error>
 
 #include "core/grain_mesh.h"
+#include "core/results_walls.h"
 #include "core/vtk_file.h"
+#include "core/wall_surface.h"
 
 namespace scree {
 namespace {
 
 namespace fs = std::filesystem;
-
-// Convex polygon cut by the half-space normal . (x - point) >= 0.
-std::vector<Vec3> clip(std::vector<Vec3> const& polygon, Vec3 point, Vec3 normal) {
-  std::vector<Vec3> out;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    Vec3 const a = polygon[i], b = polygon[(i + 1) % polygon.size()];
-    double const da = dot(a - point, normal), db = dot(b - point, normal);
-    if (da >= 0) out.push_back(a);
-    if ((da >= 0) != (db >= 0)) out.push_back(a + (b - a) * (da / (da - db)));
-  }
-  return out;
-}
-
-// The part of an infinite plane that lies in the box, as a polygon; empty when they do not meet.
-std::vector<Vec3> plane_in_box(ResultsWall const& wall, Box const& box) {
-  Vec3 const n = normalized(wall.normal);
-  Vec3 const least = std::abs(n.x) <= std::abs(n.y) && std::abs(n.x) <= std::abs(n.z) ? Vec3{1, 0, 0}
-                     : std::abs(n.y) <= std::abs(n.z)                                 ? Vec3{0, 1, 0}
-                                                                                      : Vec3{0, 0, 1};
-  Vec3 const u = normalized(cross(n, least)), v = cross(n, u);
-  Vec3 const centre = (box.min + box.max) * 0.5;
-  double const reach = norm(box.max - box.min);
-  Vec3 const foot = centre - n * dot(centre - wall.point, n);
-  std::vector<Vec3> polygon{foot - u * reach - v * reach, foot + u * reach - v * reach, foot + u * reach + v * reach,
-                            foot - u * reach + v * reach};
-  double const slack = 1e-9 * reach;  // faces of a container lie in the box's own faces
-  for (int axis = 0; axis < 3; ++axis) {
-    Vec3 direction;
-    direction[axis] = 1;
-    polygon = clip(polygon, box.min - direction * slack, direction);
-    polygon = clip(polygon, box.max + direction * slack, -direction);
-  }
-  return polygon;
-}
 
 // Each body's number for the part of its shape's name before the '/'.
 std::vector<std::int32_t> kind_of_bodies(ResultsHeader const& h) {
@@ -105,7 +73,7 @@ struct ParaviewWriter::Data {
   std::optional<Frame> without_surface;  // the last frame, while it has none
 
   std::vector<VtkArray> body_data(Frame const& frame, std::vector<int> const& count) const;
-  void write_walls() const;
+  void write_walls(fs::path const& file, Frame const* moving) const;
   void write_grains(Frame const& frame);
   void write_surfaces(Frame const& frame);
   void write_collection(char const* name, std::vector<Entry> const& entries) const;
@@ -126,12 +94,13 @@ std::vector<VtkArray> ParaviewWriter::Data::body_data(Frame const& frame, std::v
   return out;
 }
 
-void ParaviewWriter::Data::write_walls() const {
+// Walls at rest, or those that move where they are at `moving`'s time.
+void ParaviewWriter::Data::write_walls(fs::path const& file, Frame const* moving) const {
   VtkPolyData data;
   std::vector<std::int32_t> number;
-  for (std::size_t w = 0; w < header.wall.size(); ++w) {
+  for (std::size_t w = 0; w < header.wall.size() && !moving; ++w) {
     std::vector<std::int32_t> ring;
-    for (Vec3 const& corner : plane_in_box(header.wall[w], header.domain)) {
+    for (Vec3 const& corner : plane_outline(header, static_cast<int>(w))) {
       ring.push_back(static_cast<std::int32_t>(data.point.size()));
       data.point.push_back(to_float(corner));
     }
@@ -139,17 +108,16 @@ void ParaviewWriter::Data::write_walls() const {
     data.ring.push_back(ring);
     number.push_back(static_cast<std::int32_t>(w));
   }
-  for (std::size_t w = 0; w < header.surface.size(); ++w) {
-    TriangleMesh const& mesh = header.surface[w].mesh;
-    auto const first = static_cast<std::int32_t>(data.point.size());
-    for (Vec3 const& v : mesh.vertex) data.point.push_back(to_float(v));
-    for (auto const& t : mesh.triangle) {
-      data.ring.push_back({first + t[0], first + t[1], first + t[2]});
-      number.push_back(static_cast<std::int32_t>(header.wall.size() + w));
-    }
+  for (std::size_t w = 0; w < header.wall_body.size(); ++w) {
+    if (header.wall_body[w].moving != (moving != nullptr)) continue;
+    TriangleMesh const m = posed_wall(header, moving ? *moving : Frame{}, static_cast<int>(w));
+    int const first = static_cast<int>(data.point.size());
+    for (Vec3 const& v : m.vertex) data.point.push_back(to_float(v));
+    for (auto const& t : m.triangle) data.triangle.push_back({first + t[0], first + t[1], first + t[2]});
+    number.insert(number.end(), m.triangle.size(), static_cast<std::int32_t>(header.wall.size() + w));
   }
   data.cell_data = {vtk_array("wall", number)};
-  write_vtp(folder / "walls.vtp", data);
+  write_vtp(file, data);
 }
 
 void ParaviewWriter::Data::write_grains(Frame const& frame) {
@@ -195,6 +163,11 @@ void ParaviewWriter::Data::write_surfaces(Frame const& frame) {
   write_vtp(folder / name, data);
   scene.push_back({frame.time, name, 0});
   scene.push_back({frame.time, "walls.vtp", 1});
+  if (moving_walls(header) > 0) {
+    std::string const walls = fmt::format("frames/walls_{:05}.vtp", frames);
+    write_walls(folder / walls, &frame);
+    scene.push_back({frame.time, walls, 2});
+  }
   write_collection("scene.pvd", scene);
 }
 
@@ -224,7 +197,7 @@ ParaviewWriter::ParaviewWriter(fs::path const& folder, ResultsHeader const& head
     bytes += 12.0 * static_cast<double>(m.vertex.size()) + 52.0 * static_cast<double>(m.triangle.size());
   }
   d.every = std::max(1, static_cast<int>(std::ceil(bytes * options.frames_expected / options.surface_budget)));
-  d.write_walls();
+  d.write_walls(folder / "walls.vtp", nullptr);
 }
 
 ParaviewWriter::~ParaviewWriter() = default;

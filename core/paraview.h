@@ -16,9 +16,10 @@ struct ParaviewOptions {
 };
 
 // Files of `folder`: scene.pvd, grains.pvd, walls.vtp, frames/surfaces_<k>.vtp (first, every k-th and last frame),
-// frames/grains_<k>.vtp (every frame). The collections are rewritten with every frame: a killed run opens.
-// surfaces: cells carry body, shape, kind, material, group, replica, velocity [m/s]; coordinates are float [m].
-// grains: points carry these and spin [rad/s], orientation (w, x, y, z), diameter [m].
+// frames/grains_<k>.vtp (every frame); with moving walls frames/walls_<k>.vtp beside the surfaces. The collections are
+// rewritten with every frame: a killed run opens. surfaces: cells carry body, shape, kind, material, group, replica,
+// velocity [m/s]; coordinates are float [m]. grains: points carry these and spin [rad/s], orientation (w, x, y, z),
+// diameter [m]. walls: cells carry the number of the wall among the header's planes and, after them, its wall bodies.
 // kind numbers the parts of the shapes' names before the first '/' or ':' in order of appearance: ballast/0 and
 // ballast/1 share one.
 class ParaviewWriter {

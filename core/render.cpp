@@ -85,7 +85,7 @@ class Painter {
  public:
   Painter(ResultsHeader const& header, Frame const& frame, RenderOptions const& options)
       : grains_(header, frame),
-        walls_(header),
+        walls_(header, frame),
         stage_(header, walls_, grains_.empty() ? header.domain : grains_.bounds()) {
     camera_ = options.camera ? *options.camera : fitted_camera(stage_.shown(), options);
     size_ = std::max(norm(stage_.shown().max - stage_.shown().min), 1e-9);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/wall_surface.h"
 #include "shapes/wall_edges.h"
 
 namespace scree {
@@ -74,15 +75,24 @@ Vec3 smooth_normal(MeshSdf const& mesh, int triangle, Crossing const& c) {
   return normalized(corner[0] * (1 - c.u - c.v) + corner[1] * c.u + corner[2] * c.v);
 }
 
+// Grains are within it or on both sides: it must not hide them.
+bool is_glass(ResultsWallBody const& wall) {
+  bool const open = wall.kind == WallSolidKind::plane || wall.kind == WallSolidKind::bore ||
+                    wall.kind == WallSolidKind::funnel || wall.kind == WallSolidKind::sheet;
+  return open || wall.inside;
+}
+
 }  // namespace
 
-RenderWalls::RenderWalls(ResultsHeader const& header) {
-  for (ResultsSurface const& s : header.surface) {
-    if (s.mesh.triangle.empty()) continue;
-    walls_.push_back({MeshTree(s.mesh), s.glass});
-    if (s.glass)
-      for (WallEdge const& e : sharp_wall_edges(s.mesh, sharp, true)) edges_.push_back({e.from, e.to});
-    for (Vec3 const& v : s.mesh.vertex) {
+RenderWalls::RenderWalls(ResultsHeader const& header, Frame const& frame) {
+  for (std::size_t w = 0; w < header.wall_body.size(); ++w) {
+    TriangleMesh const mesh = posed_wall(header, frame, static_cast<int>(w));
+    if (mesh.triangle.empty()) continue;
+    bool const glass = is_glass(header.wall_body[w]);
+    walls_.push_back({MeshTree(mesh, MeshBorder::open), glass});
+    if (glass)
+      for (WallEdge const& e : sharp_wall_edges(mesh, sharp, true)) edges_.push_back({e.from, e.to});
+    for (Vec3 const& v : mesh.vertex) {
       if (!bounds_) bounds_ = Box{v, v};
       for (int k = 0; k < 3; ++k) {
         bounds_->min[k] = std::min(bounds_->min[k], v[k]);

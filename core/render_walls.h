@@ -12,7 +12,8 @@ namespace scree {
 
 class RenderWalls {
  public:
-  explicit RenderWalls(ResultsHeader const& header);
+  // Where the frame has them. Throws as wall_pose does.
+  RenderWalls(ResultsHeader const& header, Frame const& frame);
 
   struct Hit {
     double distance = 0;  // [m]

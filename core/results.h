@@ -11,21 +11,32 @@
 #include <vector>
 
 #include "kernels/base/vec.h"
+#include "kernels/sdf/analytic.h"
 #include "kernels/views.h"
 #include "shapes/shape.h"
 #include "shapes/triangle_mesh.h"
 
 namespace scree {
 
-struct ResultsWall {  // enough to draw a wall: the solid is behind the plane
+struct ResultsWall {  // a plane at rest: the solid is behind it
   std::string name;
   Vec3 point, normal;  // world [m]; the normal points into the free space
+  double radius = 0;   // > 0: the face of a cylinder, of which this much about the point is there to be seen [m]
 };
 
-struct ResultsSurface {  // a wall that is not a plane at rest, as drawn
-  std::string name;
-  TriangleMesh mesh;   // world, at time 0 [m]
-  bool glass = false;  // grains are behind it: it must not hide them
+enum class WallSolidKind { plane, bore, cylinder, box, capsule, funnel, mesh, sheet, terrain };
+
+// A wall as a body: all walls but planes at rest. Enough to draw and to measure it without the files of the case.
+struct ResultsWallBody {
+  std::string name;  // of the wall in the case: a drum has a bore and two planes of its name
+  WallSolidKind kind = WallSolidKind::plane;
+  bool inside = false;   // grains are within it
+  bool moving = false;   // frames have its pose
+  AnalyticSdf formula;   // of the kinds up to funnel, body frame [m]; bore: half_size.z is what is to be seen of it
+  double half_wall = 0;  // sheet: solid this far on both sides of its triangles [m]
+  TriangleMesh mesh;  // body frame [m]. mesh, sheet, terrain: the surface; plane: what is to be seen of it, none: all
+  Vec3 position;      // at time 0 [m]
+  Quat orientation;   // body -> world at time 0
 };
 
 struct ResultsHeader {
@@ -37,7 +48,7 @@ struct ResultsHeader {
   std::vector<int> material, group, replica;  // (n)
   std::vector<int> world;                     // bodies of different worlds never meet (n); empty: all meet
   std::vector<ResultsWall> wall;
-  std::vector<ResultsSurface> surface;
+  std::vector<ResultsWallBody> wall_body;
   Box domain;                       // of walls and initial grains, for cameras [m]
   bool activity = false;            // frames say which bodies are active
   std::vector<std::string> ledger;  // columns beyond those of every run, see results_layout.h
@@ -51,6 +62,9 @@ struct Frame {
   std::vector<Vec3> velocity;      // [m/s] (n)
   std::vector<Vec3> spin;          // world [rad/s] (n)
   std::vector<Activity> activity;  // (n); empty: all are active
+  // Of the wall bodies that move, in the header's order: world [m], body -> world (n_moving).
+  std::vector<Vec3> wall_position;
+  std::vector<Quat> wall_orientation;
 
   bool is_active(std::size_t body) const { return activity.empty() || activity[body] == Activity::active; }
 };

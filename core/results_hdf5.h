@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <cstring>
 #include <string>
 #include <vector>
 
@@ -58,6 +59,14 @@ std::vector<T> read_array(hid_t at, char const* name, Extent const& inner = {}) 
   std::vector<T> value(count);
   if (count > 0) read_raw(dataset, name, Type<T>::memory(), value.data());
   return value;
+}
+
+// Rows of numbers as Vec3 or Quat.
+template <class V>
+std::vector<V> as_vectors(std::vector<double> const& flat) {
+  std::vector<V> out(flat.size() * sizeof(double) / sizeof(V));
+  if (!flat.empty()) std::memcpy(static_cast<void*>(out.data()), flat.data(), flat.size() * sizeof(double));
+  return out;
 }
 
 void write_text(hid_t at, char const* name, std::string const& text);

@@ -3,13 +3,13 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstring>
 #include <fstream>
 
 #include "core/case.h"
 #include "core/results.h"
 #include "core/results_hdf5.h"
 #include "core/results_layout.h"
+#include "core/results_walls.h"
 #include "shapes/file_container.h"
 #include "shapes/model_file.h"
 
@@ -39,56 +39,6 @@ Library read_library(hid_t file) {
   return read_model(temporary.path);
 }
 
-// Rows of numbers as Vec3 or Quat.
-template <class V>
-std::vector<V> as_vectors(std::vector<double> const& flat) {
-  std::vector<V> out(flat.size() * sizeof(double) / sizeof(V));
-  if (!flat.empty()) std::memcpy(static_cast<void*>(out.data()), flat.data(), flat.size() * sizeof(double));
-  return out;
-}
-
-std::vector<ResultsWall> read_walls(hid_t file) {
-  hdf5::Handle const group = hdf5::open_group(file, "/walls");
-  std::vector<std::string> const name = results_hdf5::read_texts(group, "name");
-  auto const point = as_vectors<Vec3>(read_array<double>(group, "point", {3}));
-  auto const normal = as_vectors<Vec3>(read_array<double>(group, "normal", {3}));
-  if (point.size() != name.size() || normal.size() != name.size()) throw std::runtime_error("/walls: lengths differ");
-  std::vector<ResultsWall> wall;
-  for (std::size_t i = 0; i < name.size(); ++i) wall.push_back({name[i], point[i], normal[i]});
-  return wall;
-}
-
-std::vector<ResultsSurface> read_surfaces(hid_t file) {
-  if (H5Lexists(file, "surfaces", H5P_DEFAULT) <= 0) return {};
-  hdf5::Handle const group = hdf5::open_group(file, "/surfaces");
-  std::vector<std::string> const name = results_hdf5::read_texts(group, "name");
-  auto const glass = read_array<int>(group, "glass"), vertices = read_array<int>(group, "vertices"),
-             triangles = read_array<int>(group, "triangles");
-  auto const vertex = as_vectors<Vec3>(read_array<double>(group, "vertex", {3}));
-  auto const corner = read_array<int>(group, "corner", {3});
-  std::size_t const n = name.size();
-  if (glass.size() != n || vertices.size() != n || triangles.size() != n)
-    throw std::runtime_error("/surfaces: lengths differ");
-  std::vector<ResultsSurface> out;
-  std::size_t v = 0, t = 0;
-  for (std::size_t i = 0; i < n; ++i) {
-    bool const fits = vertices[i] >= 0 && triangles[i] >= 0 && v + vertices[i] <= vertex.size() &&
-                      3 * (t + triangles[i]) <= corner.size();
-    if (!fits) throw std::runtime_error("/surfaces: a surface ends beyond its arrays");
-    ResultsSurface s{name[i], {}, glass[i] != 0};
-    s.mesh.vertex.assign(vertex.begin() + v, vertex.begin() + v + vertices[i]);
-    for (int k = 0; k < triangles[i]; ++k) {
-      int const* const c = &corner[3 * (t + k)];
-      for (int j = 0; j < 3; ++j)
-        if (c[j] < 0 || c[j] >= vertices[i]) throw std::runtime_error("/surfaces: a triangle names no vertex");
-      s.mesh.triangle.push_back({c[0], c[1], c[2]});
-    }
-    v += vertices[i], t += triangles[i];
-    out.push_back(std::move(s));
-  }
-  return out;
-}
-
 ResultsHeader read_header(hid_t file) {
   ResultsHeader h;
   h.case_text = results_hdf5::read_text(file, "case");
@@ -109,8 +59,8 @@ ResultsHeader read_header(hid_t file) {
   if (!same || !known || h.shape_name.size() != h.library.shape.size())
     throw std::runtime_error("/bodies contradicts itself");
   h.wall = read_walls(file);
-  h.surface = read_surfaces(file);
-  auto const domain = as_vectors<Vec3>(read_array<double>(file, "domain", {3}));
+  h.wall_body = read_wall_bodies(file);
+  auto const domain = results_hdf5::as_vectors<Vec3>(read_array<double>(file, "domain", {3}));
   if (domain.size() != 2) throw std::runtime_error("dataset 'domain' must hold two corners");
   h.domain = {domain[0], domain[1]};
   if (hdf5::has_dataset(file, "ledger_columns"))
@@ -141,6 +91,9 @@ struct ResultsReader::Data {
     frames = static_cast<int>(std::min({rows("time", {}), rows("step", {}), rows("position", {n, 3}),
                                         rows("orientation", {n, 4}), rows("velocity", {n, 3}), rows("spin", {n, 3})}));
     if (header.activity) frames = std::min(frames, static_cast<int>(rows("activity", {n})));
+    if (hsize_t const m = moving_walls(header))
+      frames = std::min({frames, static_cast<int>(rows("wall_position", {m, 3})),
+                         static_cast<int>(rows("wall_orientation", {m, 4}))});
   }
 
   template <class Work>
@@ -207,6 +160,12 @@ Frame ResultsReader::frame(int index) const {
       bool const known =
           std::all_of(f.activity.begin(), f.activity.end(), [](Activity a) { return a <= Activity::deleted; });
       if (!known) throw std::runtime_error("dataset 'activity' holds a number that is none of 0, 1, 2");
+    }
+    if (std::size_t const m = moving_walls(d.header)) {
+      f.wall_position.resize(m);
+      f.wall_orientation.resize(m);
+      read("wall_position", {m, 3}, H5T_NATIVE_DOUBLE, f.wall_position.data());
+      read("wall_orientation", {m, 4}, H5T_NATIVE_DOUBLE, f.wall_orientation.data());
     }
     return f;
   });

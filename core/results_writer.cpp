@@ -9,6 +9,7 @@
 #include "core/results.h"
 #include "core/results_hdf5.h"
 #include "core/results_layout.h"
+#include "core/results_walls.h"
 #include "shapes/file_container.h"
 #include "shapes/model_file.h"
 
@@ -32,44 +33,6 @@ std::vector<std::uint8_t> model_bytes(Library const& library, fs::path const& be
   return bytes;
 }
 
-void write_walls(hid_t file, std::vector<ResultsWall> const& wall) {
-  hdf5::Handle const group = hdf5::create_group(file, "/walls");
-  std::vector<std::string> name;
-  std::vector<Vec3> point, normal;
-  for (ResultsWall const& w : wall) {
-    name.push_back(w.name);
-    point.push_back(w.point);
-    normal.push_back(w.normal);
-  }
-  write_texts(group, "name", name);
-  write_array(group, "point", point.empty() ? nullptr : &point[0].x, {wall.size(), 3});
-  write_array(group, "normal", normal.empty() ? nullptr : &normal[0].x, {wall.size(), 3});
-}
-
-// All surfaces one after the other; nothing where there are none.
-void write_surfaces(hid_t file, std::vector<ResultsSurface> const& surface) {
-  if (surface.empty()) return;
-  hdf5::Handle const group = hdf5::create_group(file, "/surfaces");
-  std::vector<std::string> name;
-  std::vector<int> glass, vertices, triangles;
-  std::vector<double> vertex;
-  std::vector<int> corner;
-  for (ResultsSurface const& s : surface) {
-    name.push_back(s.name);
-    glass.push_back(s.glass);
-    vertices.push_back(static_cast<int>(s.mesh.vertex.size()));
-    triangles.push_back(static_cast<int>(s.mesh.triangle.size()));
-    for (Vec3 const& v : s.mesh.vertex) vertex.insert(vertex.end(), {v.x, v.y, v.z});
-    for (auto const& t : s.mesh.triangle) corner.insert(corner.end(), t.begin(), t.end());
-  }
-  write_texts(group, "name", name);
-  write_array(group, "glass", glass.data(), {glass.size()});
-  write_array(group, "vertices", vertices.data(), {vertices.size()});
-  write_array(group, "triangles", triangles.data(), {triangles.size()});
-  write_array(group, "vertex", vertex.data(), {vertex.size() / 3, 3});
-  write_array(group, "corner", corner.data(), {corner.size() / 3, 3});
-}
-
 void write_header(hid_t file, ResultsHeader const& h, fs::path const& temporary) {
   hdf5::write_attribute(file, "format", std::string(results_layout::kind));
   hdf5::write_attribute(file, "version", std::int64_t{results_layout::version});
@@ -88,7 +51,7 @@ void write_header(hid_t file, ResultsHeader const& h, fs::path const& temporary)
   write_array(bodies, "replica", h.replica.data(), n);
   if (!h.world.empty()) write_array(bodies, "world", h.world.data(), n);
   write_walls(file, h.wall);
-  write_surfaces(file, h.surface);
+  write_wall_bodies(file, h.wall_body);
   write_array(file, "domain", &h.domain.min.x, {2, 3});
   std::vector<std::string> column;
   for (results_layout::LedgerColumn const& c : results_layout::columns_with(h.ledger)) column.push_back(c.name);
@@ -115,6 +78,8 @@ struct ResultsWriter::Data {
   Series<double> time, position, orientation, velocity, spin, ledger;
   Series<std::int64_t> step;
   std::optional<Series<std::uint8_t>> activity;
+  std::size_t moving = 0;  // wall bodies
+  std::optional<Series<double>> wall_position, wall_orientation;
 
   Data(fs::path const& name, ResultsHeader const& header)
       : final_name(name),
@@ -133,6 +98,11 @@ struct ResultsWriter::Data {
     velocity = {frames, "velocity", {n, 3}};
     spin = {frames, "spin", {n, 3}};
     if (header.activity) activity.emplace(frames, "activity", results_hdf5::Extent{n});
+    moving = moving_walls(header);
+    if (moving > 0) {
+      wall_position.emplace(frames, "wall_position", results_hdf5::Extent{moving, 3});
+      wall_orientation.emplace(frames, "wall_orientation", results_hdf5::Extent{moving, 4});
+    }
     ledger = {file, "ledger", {column.size()}};
     flush();
   }
@@ -177,12 +147,18 @@ void ResultsWriter::write_frame(Frame const& frame) {
   if (frame.position.size() != d.bodies || frame.orientation.size() != d.bodies || frame.velocity.size() != d.bodies ||
       frame.spin.size() != d.bodies || (d.activity && frame.activity.size() != d.bodies))
     throw std::invalid_argument("write_frame: the frame does not have the header's number of bodies");
+  if (frame.wall_position.size() != d.moving || frame.wall_orientation.size() != d.moving)
+    throw std::invalid_argument("write_frame: the frame does not have the header's number of moving walls");
   d.guarded([&] {
     d.position.append(reinterpret_cast<double const*>(frame.position.data()));
     d.orientation.append(reinterpret_cast<double const*>(frame.orientation.data()));
     d.velocity.append(reinterpret_cast<double const*>(frame.velocity.data()));
     d.spin.append(reinterpret_cast<double const*>(frame.spin.data()));
     if (d.activity) d.activity->append(reinterpret_cast<std::uint8_t const*>(frame.activity.data()));
+    if (d.moving > 0) {
+      d.wall_position->append(reinterpret_cast<double const*>(frame.wall_position.data()));
+      d.wall_orientation->append(reinterpret_cast<double const*>(frame.wall_orientation.data()));
+    }
     d.step.append(&frame.step);
     d.time.append(&frame.time);
     d.flush();
@@ -241,6 +217,8 @@ void ResultsWriter::finish(std::vector<StageRow> const& stages) {
     for (Series<double>* series : {&d.time, &d.position, &d.orientation, &d.velocity, &d.spin, &d.ledger}) *series = {};
     d.step = {};
     d.activity.reset();
+    d.wall_position.reset();
+    d.wall_orientation.reset();
     d.frames = {};
     d.file.close("cannot be written; is the disk full?");
     seal_container(d.temporary, d.final_name, results_layout::kind, results_layout::version);

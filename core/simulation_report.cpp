@@ -10,7 +10,8 @@
 #include "core/insertion.h"
 #include "core/simulation_impl.h"
 #include "core/unique_grains.h"
-#include "core/wall_surfaces.h"
+#include "core/wall_record.h"
+#include "core/wall_surface.h"
 
 namespace scree {
 namespace {
@@ -147,9 +148,8 @@ ResultsHeader Simulation::results_header() const {
   header.group = s.scene.group_of;
   for (GrainEntry const& e : entries_of(s.c)) header.replica.insert(header.replica.end(), e.count, e.replica);
   header.world = s.scene.world_of;
-  for (PlaneRecord const& plane : s.scene.plane)
-    header.wall.push_back({s.c.wall[plane.wall].name, plane.point, plane.normal});
-  header.surface = wall_surfaces(s.c, s.scene);
+  for (PlaneRecord const& plane : s.scene.plane) header.wall.push_back(recorded_plane(s.c.wall[plane.wall], plane));
+  header.wall_body = recorded_wall_bodies(s.c, s.scene);
   header.activity = !s.state.activity.empty();
   header.ledger = ledger_columns_of(s.effects);
   Box& domain = header.domain;
@@ -174,10 +174,13 @@ ResultsHeader Simulation::results_header() const {
     if (wall.kind == WallKind::plane) include(wall.point, wall.point);
     if (wall.kind == WallKind::box) include(wall.min, wall.max);
   }
-  for (std::size_t w = 0; w < s.scene.wall.size(); ++w) {
-    WallBody const& wall = s.scene.wall[w];
-    Vec3 const reach = Vec3{1, 1, 1} * wall.reach;
-    include(wall.position - reach, wall.position + reach);
+  for (ResultsWallBody const& wall : header.wall_body) {
+    Mat3 const rotation = to_matrix(wall.orientation);
+    include(wall.position, wall.position);
+    for (Vec3 const& v : wall_surface(wall).vertex) {
+      Vec3 const at = wall.position + rotation * v;
+      include(at, at);
+    }
   }
   if (s.scene.bodies() == 0 && s.c.wall.empty()) domain = {};
   return header;
@@ -192,9 +195,16 @@ Frame Simulation::frame() const {
               of_grains(s.state.orientation),
               of_grains(s.state.velocity),
               {},
-              s.state.activity};
+              s.state.activity,
+              {},
+              {}};
   for (int i = 0; i < s.scene.bodies(); ++i)
     frame.spin.push_back(spin_of(to_matrix(s.state.orientation[i]), s.scene.inertia[i], s.state.angular_momentum[i]));
+  for (std::size_t w = 0; w < s.scene.wall.size(); ++w) {
+    if (!s.scene.wall[w].motion) continue;
+    frame.wall_position.push_back(s.state.position[s.scene.bodies() + w]);
+    frame.wall_orientation.push_back(s.state.orientation[s.scene.bodies() + w]);
+  }
   return frame;
 }
 

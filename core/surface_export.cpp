@@ -3,6 +3,7 @@
 #include "core/surface_export.h"
 
 #include "core/grain_mesh.h"
+#include "core/wall_surface.h"
 
 namespace scree {
 
@@ -17,6 +18,14 @@ std::vector<TriangleMesh> grain_meshes(ResultsHeader const& header, Frame const&
     for (Vec3& v : grain.back().vertex) v = frame.position[i] + rotation * v * header.diameter[i];
   }
   return grain;
+}
+
+std::vector<TriangleMesh> wall_meshes(ResultsHeader const& header, Frame const& frame) {
+  std::vector<TriangleMesh> wall;
+  for (std::size_t i = 0; i < header.wall.size(); ++i) wall.push_back(fan(plane_outline(header, static_cast<int>(i))));
+  for (std::size_t i = 0; i < header.wall_body.size(); ++i)
+    wall.push_back(posed_wall(header, frame, static_cast<int>(i)));
+  return wall;
 }
 
 TriangleMesh joined(std::vector<TriangleMesh> const& meshes) {

@@ -118,6 +118,8 @@ void add_export(CLI::App& app, ExportArguments& a, std::function<int()>& chosen)
       ->check(CLI::IsMember({"stl", "ply", "obj"}))
       ->capture_default_str();
   c->add_flag("--per-grain", a.per_grain, "One mesh file a grain, in the folder --output")->needs(stl);
+  c->add_flag("--walls", a.walls, "The walls, too; an endless plane as far as the walls and grains of the case reach")
+      ->needs(stl);
   c->add_option("--frame", a.frame, "Frame, negative from the end")->needs(stl)->capture_default_str();
   c->add_option("--triangles", a.triangles, "A grain")
       ->needs(stl)

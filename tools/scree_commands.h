@@ -64,6 +64,7 @@ struct ExportArguments {
   bool recover = false;
   bool surfaces = false;       // mesh files instead of ParaView's; `folder` is then a file, or a folder with per_grain
   bool per_grain = false;      // one file a grain
+  bool walls = false;          // the walls, too
   bool force = false;          // replace existing mesh files
   std::string format = "stl";  // stl, ply, obj
   int frame = -1;

@@ -61,7 +61,7 @@ void describe_results(fs::path const& file, bool recover) {
   ResultsReader const reader(file, recover);
   ResultsHeader const& h = reader.header();
   fmt::print("{}: results file, {} bodies of {} shapes, {} walls, {} frames\n", file.string(), h.shape.size(),
-             h.shape_name.size(), h.wall.size(), reader.frames());
+             h.shape_name.size(), h.wall.size() + h.wall_body.size(), reader.frames());
   if (reader.frames() > 0) {
     Frame const first = reader.frame(0), last = reader.frame(-1);
     fmt::print("t {:g} ... {:g} s, step {} ... {}\n", first.time, last.time, grouped(first.step), grouped(last.step));
@@ -82,9 +82,14 @@ void describe_results(fs::path const& file, bool recover) {
   if (seconds > 0) fmt::print("{}", stage_table(stages, seconds));
 }
 
+std::string wall_name(int wall, ResultsHeader const& h) {
+  int const planes = static_cast<int>(h.wall.size());
+  return wall < planes ? h.wall[wall].name : h.wall_body[wall - planes].name;
+}
+
 std::string place(OverlapAt const& at, ResultsHeader const& h) {
   if (at.a < 0) return "no contact";
-  std::string const other = at.b < 0 ? "wall '" + h.wall[-1 - at.b].name + "'" : fmt::format("grain {}", at.b);
+  std::string const other = at.b < 0 ? "wall '" + wall_name(-1 - at.b, h) + "'" : fmt::format("grain {}", at.b);
   return fmt::format("{:.4f} % d, grain {} and {}", 100 * at.depth, at.a, other);
 }
 

@@ -177,5 +177,85 @@ TEST(OverlapMeter, RefusesAFrameOfAnotherRun) {
   EXPECT_THROW(s.measure(), std::invalid_argument);
 }
 
+// A sphere of d = 0.1 whose centre is `depth` nearer to the wall's surface than its radius, at `centre` of the wall's
+// frame; the wall stands in a pose of its own. A point e off the line of centres reads e^2 / 2 (1/r + 1/R) less.
+void expect_depth(ResultsWallBody wall, Vec3 centre, double depth, double curvature) {
+  double const d = 0.1, slack = spacing * spacing * d * d / 2 * (2 / d + curvature);
+  wall.name = "wall";
+  wall.position = {3, -2, 1};
+  wall.orientation = normalized(tilted);
+  Scenery s;
+  Vec3 const at = wall.position + to_matrix(wall.orientation) * centre;
+  s.add(make_sphere(), at, tilted, d);
+  s.add_wall(at - Vec3{0, 0, 1}, {0, 0, 1});  // clear of it, so that the body is not the first wall
+  s.header.wall_body = {wall};
+  OverlapReport const r = s.measure();
+  EXPECT_EQ(r.wall_contacts, depth > 0 ? 1 : 0);
+  if (!(depth > 0)) return;
+  EXPECT_EQ(r.grain_wall.b, -2);
+  EXPECT_LE(r.grain_wall.depth * d, depth * (1 + 1e-9));
+  EXPECT_GE(r.grain_wall.depth * d, depth - slack);
+}
+
+ResultsWallBody formula(WallSolidKind kind, AnalyticKind analytic, Vec3 half_size, double half_wall = 0) {
+  ResultsWallBody w;
+  w.kind = kind;
+  w.formula.kind = analytic;
+  w.formula.half_size = half_size;
+  w.formula.half_wall = half_wall;
+  return w;
+}
+
+TEST(OverlapMeter, WallBodiesReadTheirDepth) {
+  double const r = 0.05;
+  for (double depth : {0.002, 0.0005, -0.0005}) {
+    // In a bore of R the surface is R from the axis; its curvature is away from the sphere.
+    double const bore = 0.4;
+    expect_depth(formula(WallSolidKind::bore, AnalyticKind::bore, {bore, bore, 1}), {0, bore - r + depth, 0.3}, depth,
+                 -1 / bore);
+    // On the side of a solid cylinder, and in the middle of its end.
+    WallSolidKind const cylinder = WallSolidKind::cylinder;
+    expect_depth(formula(cylinder, AnalyticKind::cylinder, {0.2, 0.2, 0.3}), {0, 0.2 + r - depth, 0.1}, depth, 1 / 0.2);
+    expect_depth(formula(cylinder, AnalyticKind::cylinder, {0.2, 0.2, 0.3}), {0.01, 0, 0.3 + r - depth}, depth, 0);
+    // Within a cone of 45 degrees: the middle of its wall is z + 0.3 from the axis, its inner face w further in.
+    double const w = 0.01, inward = r + w - depth, z = 0.05;
+    expect_depth(formula(WallSolidKind::funnel, AnalyticKind::funnel, {0.1, 0.5, 0.2}, w),
+                 {z + 0.3 - inward / std::sqrt(2.0), 0, z + inward / std::sqrt(2.0)}, depth, 0);
+    // Two triangles that rise 45 degrees along x: closest to the sphere at the origin.
+    ResultsWallBody slope;
+    slope.kind = WallSolidKind::terrain;
+    slope.mesh = {{{-1, -1, -1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, -1}}, {{0, 1, 2}, {0, 2, 3}}};
+    Vec3 const up = normalized(Vec3{-1, 0, 1});
+    expect_depth(slope, up * (r - depth), depth, 0);
+    // The same as a sheet, from below, and as the top of a closed wedge.
+    slope.kind = WallSolidKind::sheet;
+    slope.half_wall = 0.004;
+    expect_depth(slope, up * -(r + 0.004 - depth), depth, 0);
+    slope.kind = WallSolidKind::mesh;
+    slope.half_wall = 0;
+    slope.mesh = {{{-1, -1, -1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, -1}, {1, -1, -1}, {1, 1, -1}},
+                  {{0, 1, 2}, {0, 2, 3}, {0, 4, 1}, {1, 4, 5}, {1, 5, 2}, {2, 5, 3}, {0, 3, 5}, {0, 5, 4}}};
+    expect_depth(slope, up * (r - depth), depth, 0);
+  }
+}
+
+TEST(OverlapMeter, WallsThatMoveAreWhereTheFrameHasThem) {
+  Scenery s;
+  s.add(make_sphere(), {0, 0, 0});
+  ResultsWallBody plane = formula(WallSolidKind::plane, AnalyticKind::plane, {});
+  plane.moving = true;
+  plane.position = {0, 0, -0.049};  // at time 0 it would be in contact
+  s.header.wall_body = {plane};
+  EXPECT_THROW(s.measure(), std::invalid_argument);
+  s.frame.wall_position = {{0, 0, -0.2}};
+  s.frame.wall_orientation = {{}};
+  EXPECT_EQ(s.measure().wall_contacts, 0);
+  s.frame.wall_position = {{0, 0, 0.048}};
+  s.frame.wall_orientation = {{0, 1, 0, 0}};  // upside down: solid above
+  OverlapReport const r = s.measure();
+  EXPECT_LE(r.grain_wall.depth, 0.02 * (1 + 1e-9));
+  EXPECT_GE(r.grain_wall.depth, 0.02 - spacing * spacing);
+}
+
 }  // namespace
 }  // namespace scree

@@ -8,6 +8,7 @@
 #include <zlib.h>
 
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <fstream>
@@ -15,6 +16,7 @@
 
 #include "core/grain_mesh.h"
 #include "core/vtk_file.h"
+#include "core/wall_surface.h"
 #include "shapes/analytic_shapes.h"
 
 namespace {
@@ -220,16 +222,75 @@ TEST_F(ParaviewExport, WallsAreTheirPartOfTheDomain) {
   }
 }
 
-TEST_F(ParaviewExport, VtkReadsEveryFile) {
-  write(3, 3);
+// A block at rest and a disc that rises, behind the two planes.
+ResultsHeader with_wall_bodies() {
+  ResultsHeader h = two_grains();
+  ResultsWallBody block;
+  block.kind = WallSolidKind::box;
+  block.formula.kind = AnalyticKind::box;
+  block.formula.half_size = {0.125, 0.25, 0.5};
+  block.position = {2, 0, 0};
+  block.orientation = quat_from_rotation_vector({0, 0, 1.5707963267948966});
+  ResultsWallBody disc;
+  disc.moving = true;
+  disc.formula.kind = AnalyticKind::plane;
+  disc.mesh = fan(circle(0.5));
+  h.wall_body = {block, disc};
+  return h;
+}
+
+std::string read_by_vtk(fs::path const& folder, int& status) {
   std::string const command =
-      std::string("/usr/bin/python3 ") + SCREE_SOURCE_DIR + "/tests/core/paraview_read.py " + folder_.string();
+      std::string("/usr/bin/python3 ") + SCREE_SOURCE_DIR + "/tests/core/paraview_read.py " + folder.string();
   std::FILE* const pipe = ::popen(command.c_str(), "r");
-  ASSERT_NE(pipe, nullptr);
   std::string out;
   std::array<char, 4096> buffer;
   while (std::size_t const n = std::fread(buffer.data(), 1, buffer.size(), pipe)) out.append(buffer.data(), n);
-  int const status = WEXITSTATUS(::pclose(pipe));
+  status = WEXITSTATUS(::pclose(pipe));
+  return out;
+}
+
+TEST_F(ParaviewExport, WallBodiesAtRestAreWrittenOnceAndMovingOnesForEachFrame) {
+  ParaviewWriter writer(folder_, with_wall_bodies(), {});
+  for (int k = 0; k < 2; ++k) {
+    Frame f = two_poses(0.3 + 0.01 * k);
+    f.wall_position = {{0, 0, 0.25 * k}};
+    f.wall_orientation = {{}};
+    writer.write_frame(f);
+  }
+  writer.finish();
+  auto const wall = decode_as<std::int32_t>(folder_ / "walls.vtp", "wall", "CellData");
+  ASSERT_EQ(wall.size(), 2u + 12);  // two polygons, then the block's triangles
+  EXPECT_EQ(wall[1], 1);
+  EXPECT_EQ(wall[2], 2);
+  EXPECT_EQ(wall.back(), 2);
+  auto const point = decode_as<float>(folder_ / "walls.vtp", "Points");
+  ASSERT_EQ(point.size(), 3u * (2 * 4 + 8));
+  for (std::size_t i = 8; i < 16; ++i) {  // turned by 90 degrees: its sides along x and y change places
+    EXPECT_NEAR(std::fabs(point[3 * i] - 2), 0.25, 1e-6);
+    EXPECT_NEAR(std::fabs(point[3 * i + 1]), 0.125, 1e-6);
+    EXPECT_NEAR(std::fabs(point[3 * i + 2]), 0.5, 1e-6);
+  }
+  auto const lid = decode_as<float>(folder_ / "frames/walls_00001.vtp", "Points");
+  ASSERT_EQ(lid.size(), 3u * circle_segments);
+  for (int i = 0; i < circle_segments; ++i) EXPECT_NEAR(lid[3 * i + 2], 0.25, 1e-6);
+  EXPECT_EQ(decode_as<std::int32_t>(folder_ / "frames/walls_00000.vtp", "wall", "CellData"),
+            std::vector<std::int32_t>(circle_segments - 2, 3));
+  int status = 0;
+  std::string const out = read_by_vtk(folder_, status);
+  if (status == 77 || status == 127) GTEST_SKIP() << "VTK for Python is not installed (Debian: python3-vtk9)";
+  ASSERT_EQ(status, 0) << out;
+  EXPECT_EQ(occurrences(out, "walls.vtp points 16 cells 14"), 2) << out;
+  EXPECT_NE(out.find("frames/walls_00001.vtp points 128 cells 126 bounds -0.5000 0.5000 -0.5000 0.5000 0.2500 0.2500"),
+            std::string::npos)
+      << out;
+}
+
+TEST_F(ParaviewExport, VtkReadsEveryFile) {
+  write(3, 3);
+  EXPECT_EQ(occurrences(read_file(folder_ / "scene.pvd"), "frames/walls_"), 0);
+  int status = 0;
+  std::string const out = read_by_vtk(folder_, status);
   if (status == 77 || status == 127) GTEST_SKIP() << "VTK for Python is not installed (Debian: python3-vtk9)";
   ASSERT_EQ(status, 0) << out;
   EXPECT_EQ(occurrences(out, "surfaces_"), 3);

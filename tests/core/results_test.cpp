@@ -148,6 +148,99 @@ TEST_F(ResultsFile, FramesSayWhichBodiesAreActiveWhereTheHeaderSaysSo) {
   EXPECT_TRUE(ResultsReader(file_).frame(0).activity.empty());
 }
 
+// A drum that turns, a sheet at rest and the disc of a cylinder's end.
+ResultsHeader with_walls(int n) {
+  ResultsHeader h = header(n);
+  h.wall.push_back({"silo", {0, 0, 2}, {0, 0, -1}, 0.25});
+  ResultsWallBody drum;
+  drum.name = "drum";
+  drum.kind = WallSolidKind::bore;
+  drum.inside = drum.moving = true;
+  drum.formula.kind = AnalyticKind::bore;
+  drum.formula.half_size = {0.5, 0.5, 0.15};
+  drum.position = {1, 2, 3};
+  drum.orientation = quat_from_rotation_vector({0.1, 0.2, 0.3});
+  ResultsWallBody funnel = drum;
+  funnel.name = "funnel";
+  funnel.kind = WallSolidKind::funnel;
+  funnel.inside = funnel.moving = false;
+  funnel.formula.kind = AnalyticKind::funnel;
+  funnel.formula.half_wall = 0.02;
+  ResultsWallBody sheet;
+  sheet.name = "sheet";
+  sheet.kind = WallSolidKind::sheet;
+  sheet.half_wall = 0.01;
+  sheet.mesh = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0.5}, {1, 1, 0.5}}, {{0, 1, 2}, {2, 1, 3}}};
+  ResultsWallBody lid = drum;
+  lid.kind = WallSolidKind::plane;
+  lid.formula.kind = AnalyticKind::plane;
+  lid.mesh = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}};
+  h.wall_body = {drum, funnel, sheet, lid};
+  return h;
+}
+
+TEST_F(ResultsFile, WallBodiesAndTheirMotionComeBack) {
+  ResultsHeader const h = with_walls(2);
+  {
+    ResultsWriter writer(file_, h);
+    Frame f = frame(2, 3);
+    EXPECT_THROW(writer.write_frame(f), std::invalid_argument) << "two walls move";
+    f.wall_position = {{7, 8, 9}, {10, 11, 12}};
+    f.wall_orientation = {{1, 0, 0, 0}, {0, 1, 0, 0}};
+    writer.write_frame(f);
+    writer.finish({});
+  }
+  ResultsReader const reader(file_);
+  ASSERT_EQ(reader.header().wall.size(), 3u);
+  EXPECT_EQ(reader.header().wall[0].radius, 0);
+  EXPECT_EQ(reader.header().wall[2].radius, 0.25);
+  ASSERT_EQ(reader.header().wall_body.size(), h.wall_body.size());
+  for (std::size_t i = 0; i < h.wall_body.size(); ++i) {
+    ResultsWallBody const &a = h.wall_body[i], &b = reader.header().wall_body[i];
+    EXPECT_EQ(a.name, b.name);
+    EXPECT_EQ(a.kind, b.kind);
+    EXPECT_EQ(a.inside, b.inside);
+    EXPECT_EQ(a.moving, b.moving);
+    if (a.kind < WallSolidKind::mesh) {
+      EXPECT_EQ(a.formula.kind, b.formula.kind);
+      EXPECT_EQ(a.formula.half_size, b.formula.half_size);
+      EXPECT_EQ(a.formula.half_wall, b.formula.half_wall);
+    }
+    EXPECT_EQ(a.half_wall, b.half_wall);
+    EXPECT_EQ(a.mesh.vertex, b.mesh.vertex);
+    EXPECT_EQ(a.mesh.triangle, b.mesh.triangle);
+    EXPECT_EQ(a.position, b.position);
+    EXPECT_EQ(a.orientation, b.orientation);
+  }
+  EXPECT_EQ(reader.frame(0).wall_position[1], (Vec3{10, 11, 12}));
+  EXPECT_EQ(reader.frame(0).wall_orientation[1], (Quat{0, 1, 0, 0}));
+}
+
+// Files from before walls were bodies lack these objects, and so do files whose walls are planes at rest.
+TEST_F(ResultsFile, WallsThatAreNotThereTakeNoObjects) {
+  auto const has = [&](char const* name) {
+    hid_t const file = H5Fopen(file_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+    bool const found = H5Lexists(file, name, H5P_DEFAULT) > 0;
+    H5Fclose(file);
+    return found;
+  };
+  write_all(file_, 2, 1);
+  for (char const* name : {"wall_bodies", "walls/radius", "frames/wall_position", "frames/wall_orientation"})
+    EXPECT_FALSE(has(name)) << name;
+  EXPECT_TRUE(ResultsReader(file_).header().wall_body.empty());
+  EXPECT_TRUE(ResultsReader(file_).frame(0).wall_position.empty());
+  ResultsHeader still = with_walls(2);
+  for (ResultsWallBody& w : still.wall_body) w.moving = false;
+  {
+    ResultsWriter writer(file_, still);
+    writer.write_frame(frame(2, 0));
+    writer.finish({});
+  }
+  EXPECT_TRUE(has("wall_bodies") && has("walls/radius"));
+  EXPECT_FALSE(has("frames/wall_position") || has("frames/wall_orientation"));
+  EXPECT_TRUE(ResultsReader(file_).frame(0).wall_position.empty());
+}
+
 TEST_F(ResultsFile, WhatGoesInComesOut) {
   int constexpr n = 3, frames = 4;
   write_all(file_, n, frames);
