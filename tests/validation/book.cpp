@@ -29,7 +29,7 @@ char const* name_of(Bound bound) {
 }
 
 // RFC 4180: quoted, quotes doubled.
-std::string quoted(std::string const& text) {
+std::string in_quotes(std::string const& text) {
   std::string out = "\"";
   for (char c : text) {
     if (c == '"') out += '"';
@@ -128,14 +128,14 @@ Entry::~Entry() {
   // part,id,title,figure,unit,bound,expected,measured,tolerance,passed,source,seconds
   if (Csv csv("SCREE_BOOK_CSV"); csv.file())
     for (Row const& r : rows_)
-      std::fprintf(csv.file(), "%s,%s,%s,%s,%s,%s,%.9g,%.9g,%.9g,%d,%s,%.2f\n", part_.c_str(), quoted(id_).c_str(),
-                   quoted(title_).c_str(), quoted(r.figure).c_str(), quoted(r.unit).c_str(), name_of(r.bound),
-                   r.expected, r.measured, r.tolerance, r.passed() ? 1 : 0, quoted(source_).c_str(), seconds);
+      std::fprintf(csv.file(), "%s,%s,%s,%s,%s,%s,%.9g,%.9g,%.9g,%d,%s,%.2f\n", part_.c_str(), in_quotes(id_).c_str(),
+                   in_quotes(title_).c_str(), in_quotes(r.figure).c_str(), in_quotes(r.unit).c_str(), name_of(r.bound),
+                   r.expected, r.measured, r.tolerance, r.passed() ? 1 : 0, in_quotes(source_).c_str(), seconds);
   // part,id,curve,x,expected,measured
   if (Csv csv("SCREE_BOOK_CURVES"); csv.file())
     for (CurvePoint const& p : points_)
-      std::fprintf(csv.file(), "%s,%s,%s,%.9g,%.9g,%.9g\n", part_.c_str(), quoted(id_).c_str(), quoted(p.curve).c_str(),
-                   p.x, p.expected, p.measured);
+      std::fprintf(csv.file(), "%s,%s,%s,%.9g,%.9g,%.9g\n", part_.c_str(), in_quotes(id_).c_str(),
+                   in_quotes(p.curve).c_str(), p.x, p.expected, p.measured);
 }
 
 }  // namespace scree::book
