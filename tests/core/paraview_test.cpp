@@ -59,7 +59,7 @@ template <class T>
 std::vector<T> decode_as(fs::path const& file, std::string const& name, std::string const& section = "PointData") {
   std::vector<char> const bytes = decode(file, name, section);
   std::vector<T> out(bytes.size() / sizeof(T));
-  if (!out.empty()) std::memcpy(out.data(), bytes.data(), bytes.size()); // a file of no points is nothing to copy
+  if (!out.empty()) std::memcpy(out.data(), bytes.data(), bytes.size());  // a file of no points is nothing to copy
   return out;
 }
 
