@@ -160,13 +160,15 @@ CaseNode parse_case_file(std::filesystem::path const& file) {
   std::ifstream stream(file, std::ios::binary);
   if (!stream || std::filesystem::is_directory(file, error))
     throw InputError({fmt::format("{}: cannot be read as a case file", file.string())});
-  std::string const text{std::istreambuf_iterator<char>(stream), {}};
+  return parse_case_text({std::istreambuf_iterator<char>(stream), {}}, file.string());
+}
+
+CaseNode parse_case_text(std::string const& text, std::string const& where) {
   try {
-    return convert(toml::parse(std::string_view(text)), file.string());
+    return convert(toml::parse(std::string_view(text)), where);
   } catch (toml::parse_error const& problem) {
     toml::source_position const at = problem.source().begin;
-    throw InputError(
-        {fmt::format("{}:{}:{}: TOML syntax: {}", file.string(), at.line, at.column, problem.description())});
+    throw InputError({fmt::format("{}:{}:{}: TOML syntax: {}", where, at.line, at.column, problem.description())});
   }
 }
 

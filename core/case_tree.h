@@ -29,6 +29,7 @@ char const* to_string(CaseNode::Kind kind);  // "a table", "a string" ...
 
 // Throws InputError: a missing or unreadable file; a syntax error, alone, as "file:line:column".
 CaseNode parse_case_file(std::filesystem::path const& file);
+CaseNode parse_case_text(std::string const& text, std::string const& where);  // where: its file, for messages
 
 // Apply "dotted.path=value". The value is TOML ("2", "[0, 0, 1]", "\"text\""); what is not TOML is taken as a string;
 // an empty value removes the key. Entries of a list of tables are named by their index or their `name`.

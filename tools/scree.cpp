@@ -1,4 +1,4 @@
-// scree.cpp: the engine's program: run, plan, check, info, render, export.
+// scree.cpp: the engine's program: run, plan, check, info, render, export, envelopes.
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
@@ -130,6 +130,22 @@ void add_export(CLI::App& app, ExportArguments& a, std::function<int()>& chosen)
   c->callback([&] { chosen = [&] { return a.surfaces ? export_surfaces(a) : export_command(a); }; });
 }
 
+void add_envelopes(CLI::App& app, EnvelopesArguments& a, std::function<int()>& chosen) {
+  CLI::App* const c = app.add_subcommand(
+      "envelopes", "Run-out, map, energies at screens and speeds of each [[grains]] entry: tables and pictures");
+  c->add_option("results", a.results, "results.h5 of one or several runs, which are pooled")->required();
+  c->add_option("-o,--output", a.folder, "Folder for tables (CSV) and pictures")->required();
+  c->add_option("--direction", a.direction, "Of the run-out (default: of the case's first run_out measurement)")
+      ->type_name("X,Y,Z")
+      ->delimiter(',')
+      ->expected(3);
+  c->add_option("--bin", a.bin, "Width of bins and cells, distance of the screens [m] (default: about 30 on the way)")
+      ->check(CLI::PositiveNumber);
+  c->add_flag("--force", a.force, "Replace existing tables");
+  c->add_flag("--recover", a.recover, "Read unfinished files of runs that were killed");
+  c->callback([&] { chosen = [&] { return envelopes_command(a); }; });
+}
+
 int complain(ExitCode code, std::string const& what) {
   std::fflush(stdout);
   fmt::print(stderr, "scree: error: {}\n", what);
@@ -175,12 +191,14 @@ int main(int argc, char** argv) {
   InfoArguments info;
   RenderArguments render;
   ExportArguments exported;
+  EnvelopesArguments envelopes;
   add_run(app, run, chosen);
   add_plan(app, plan, chosen);
   add_check(app, check, chosen);
   add_info(app, info, chosen);
   add_render(app, render, chosen);
   add_export(app, exported, chosen);
+  add_envelopes(app, envelopes, chosen);
   try {
     app.parse(argc, argv);
   } catch (CLI::ParseError const& error) {

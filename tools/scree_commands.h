@@ -71,12 +71,22 @@ struct ExportArguments {
   int triangles = 1280;  // a grain
 };
 
+struct EnvelopesArguments {
+  std::vector<std::filesystem::path> results;  // pooled
+  std::filesystem::path folder;                // of tables and pictures
+  std::vector<double> direction;               // x, y, z of the run-out; empty: the case's
+  double bin = 0;                              // [m]; 0: chosen
+  bool force = false;                          // replace existing tables
+  bool recover = false;
+};
+
 int run_command(RunArguments const& arguments);
 int plan_command(CaseArguments const& arguments);
 int check_command(CaseArguments const& arguments);
 int info_command(InfoArguments const& arguments);
 int render_command(RenderArguments const& arguments);
 int export_command(ExportArguments const& arguments);
+int envelopes_command(EnvelopesArguments const& arguments);
 int export_surfaces(ExportArguments const& arguments);  // where arguments.surfaces is set
 
 // Threads to use, and the device check every command that computes goes through: `cuda` in a build without it throws

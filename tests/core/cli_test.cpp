@@ -346,6 +346,48 @@ TEST_F(Program, RenderDrawsAFrameAndRefusesNonsense) {
   EXPECT_FALSE(fs::exists(folder_ / "x.png"));
 }
 
+TEST_F(Program, EnvelopesWriteTablesAndPictures) {
+  write("small.toml", small_case);
+  ASSERT_EQ(scree("run small.toml --threads 1").code, 0);
+  auto const expect_refused = [&](std::string const& arguments, std::string const& part) {
+    Outcome const outcome = scree("envelopes " + arguments);
+    EXPECT_EQ(outcome.code, 2) << outcome.text;
+    EXPECT_NE(outcome.text.find(part), std::string::npos) << outcome.text;
+    EXPECT_FALSE(fs::exists(folder_ / "env"));
+  };
+  expect_refused("small.out/results.h5 -o env", "no run_out measurement; name it with --direction");
+  expect_refused("small.out/results.h5 -o env --direction 0,0,1", "no horizontal part");
+  expect_refused("small.out/results.h5 -o env --direction 1,0", "--direction");
+  expect_refused("small.out/results.h5 -o env --direction 1,0,0 --bin 0", "--bin");
+  expect_refused("small.out/results.h5 small.out/results.h5 -o env --direction 1,0,0", "named twice");
+  expect_refused("absent.h5 -o env --direction 1,0,0", "absent.h5");
+  expect_refused("small.out/results.h5 -o small.toml --direction 1,0,0", "small.toml is a file");
+
+  // A Matplotlib that cannot be imported stands before the real one: tables all the same.
+  fs::create_directories(folder_ / "broken");
+  write("broken/matplotlib.py", "raise ImportError\n");
+  std::string const command = "envelopes small.out/results.h5 -o env --direction 1,0,0";
+  ::setenv("PYTHONPATH", (folder_ / "broken").c_str(), 1);
+  Outcome const bare = scree(command);
+  ::unsetenv("PYTHONPATH");
+  EXPECT_EQ(bare.code, 0) << bare.text;
+  EXPECT_NE(bare.text.find("Matplotlib was not found"), std::string::npos) << bare.text;
+  EXPECT_FALSE(fs::exists(folder_ / "env/envelopes.png"));
+  for (char const* const table : {"groups", "grains", "run_out", "plan", "screens", "velocity"})
+    EXPECT_TRUE(fs::exists(folder_ / "env" / (std::string(table) + ".csv"))) << table;
+  EXPECT_EQ(read_file(folder_ / "env/groups.csv").rfind("group,replicas,grains,", 0), 0u);
+
+  Outcome const again = scree(command);
+  EXPECT_EQ(again.code, 2);
+  EXPECT_NE(again.text.find("--force"), std::string::npos) << again.text;
+  Outcome const drawn = scree(command + " --force");
+  EXPECT_EQ(drawn.code, 0) << drawn.text;
+  bool const pictures = drawn.text.find("envelopes.png, plan.png") != std::string::npos;  // where Matplotlib is
+  EXPECT_NE(pictures, drawn.text.find("no pictures: Matplotlib was not found") != std::string::npos) << drawn.text;
+  for (char const* const picture : {"env/envelopes.png", "env/plan.png"})
+    EXPECT_EQ(fs::exists(folder_ / picture), pictures) << picture;
+}
+
 TEST_F(Program, ExportsTheGrainsOfAFrameAsMeshes) {
   write("small.toml", small_case);
   ASSERT_EQ(scree("run small.toml").code, 0);
