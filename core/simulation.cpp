@@ -24,6 +24,10 @@ Simulation::Impl::Impl(Case const& c_, SimulationOptions const& options_, Frame 
   queue.profile = &profile;
   Placement placement;
   scene = build_scene(c, queue.threads, placement);
+  if (options.network_device) {
+    options.network_device->load(scene.view(), scene.networks);
+    scene.networks.device = options.network_device;
+  }
   effects = effects_of(c, scene);
   contacts.brute_force = options.brute_force;
   int const n = scene.bodies();

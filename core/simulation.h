@@ -12,6 +12,7 @@
 #include "core/measurements.h"
 #include "core/results.h"
 #include "kernels/base/profile.h"
+#include "kernels/network_device.h"
 
 namespace scree {
 
@@ -26,6 +27,7 @@ class WatchStop : public std::runtime_error {
 struct SimulationOptions {
   int threads = 1;
   bool brute_force = false;  // test oracle: every node of every touching pair is evaluated at every step
+  std::shared_ptr<NetworkDevice> network_device = nullptr;  // evaluates the networks (hybrid mode); null: the host does
 };
 
 // What a case costs before it runs: `scree plan` prints it and tests assert it.

@@ -92,15 +92,21 @@ struct FillActive {
   Span<int> node;
   Span<Vec3> point;
   Span<int> partner;
+  Span<const Vec3> due_gradient;  // empty, or of the sides before side_end: those of networks
+  int side_end = 0;
+  Span<double> active_phi;
+  Span<Vec3> active_gradient;
 
   SCREE_HD void operator()(int s) const {
     int out = first[s];
+    bool const has_gradient = !due_gradient.empty() && s < side_end;
     double const outside = -adhesive_reach(scene, side[s]) / partner_unit(scene, side[s]);
     for (int i = due_first[s]; i < due_first[s + 1]; ++i) {
       if (!(phi[i] > outside)) continue;
       node[out] = listed_node[entry[i]];
       point[out] = due_point[i];
       partner[out] = due_partner[i];
+      if (has_gradient) active_phi[out] = phi[i], active_gradient[out] = due_gradient[i];
       ++out;
     }
   }
@@ -187,7 +193,9 @@ void find_active_nodes(Queue const& queue, SceneView const& scene, StateView con
   groups_of_items(lists.group, active.due_first, active.due.group);
   due.entry = active.due_entry, due.point = active.due.point, due.partner = active.due.partner;
   if (n_due > 0) parallel_for(queue, "node_gather/due", sides, due, 64);
-  evaluate_phi(queue, scene, networks, active.due);
+  // A hair below the reach, since what is active is decided in units of the partner.
+  double const gradient_from = -scene.cohesion_reach * (1 + 1e-12);
+  bool const has_gradients = evaluate_phi_and_some_gradients(queue, scene, networks, active.due, gradient_from);
   active.queries += n_due;
   parallel_for(queue, "node_gather/next_due", sides,
                NextDue{scene, lists.side, lists.travelled, options.brute_force, active.due_first, active.due_entry,
@@ -199,12 +207,28 @@ void find_active_nodes(Queue const& queue, SceneView const& scene, StateView con
   active.sample.resize(n);
   active.sample.gradient.resize(n);
   groups_of_items(lists.group, active.first, active.sample.group);
-  parallel_for(
-      queue, "node_gather/compact", sides,
-      FillActive{scene, lists.side, active.due_first, active.due_entry, lists.node, active.due.phi, active.due.point,
-                 active.due.partner, active.first, active.node, active.sample.point, active.sample.partner},
-      512);
-  evaluate_phi_gradient(queue, scene, networks, active.sample);
+  FillActive fill{scene,
+                  lists.side,
+                  active.due_first,
+                  active.due_entry,
+                  lists.node,
+                  active.due.phi,
+                  active.due.point,
+                  active.due.partner,
+                  active.first,
+                  active.node,
+                  active.sample.point,
+                  active.sample.partner,
+                  {},
+                  lists.group[networks.net.size()],
+                  active.sample.phi,
+                  active.sample.gradient};
+  if (has_gradients) fill.due_gradient = active.due.gradient;
+  parallel_for(queue, "node_gather/compact", sides, fill, 512);
+  if (has_gradients)
+    evaluate_others_phi_gradient(queue, scene, networks, active.sample);
+  else
+    evaluate_phi_gradient(queue, scene, networks, active.sample);
 }
 
 }  // namespace scree

@@ -2,17 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "kernels/sdf_queries.h"
 
+#include <limits>
+
 #include "kernels/base/parallel.h"
+#include "kernels/network_frame.h"
 #include "kernels/sdf/harmonics.h"
 
 namespace scree {
 namespace {
-
-// The point of the ball on the same ray, or the point itself inside.
-SCREE_HD Vec3 point_in_ball(Vec3 x, double radius) {
-  double const r2 = norm2(x);
-  return r2 > radius * radius ? x * (radius / std::sqrt(r2)) : x;
-}
 
 struct ToNetworkFrame {
   SceneView scene;
@@ -23,21 +20,10 @@ struct ToNetworkFrame {
 
   SCREE_HD void operator()(int i) const {
     ShapeRecord const& shape = scene.shape_record(partner[i]);
-    // A point beyond the ball is answered without the network; the ball's centre keeps the evaluator's input tame.
-    Vec3 x = norm2(point[i]) <= shape.bounding_radius * shape.bounding_radius ? point[i] : Vec3{};
-    if (scene.cohesion_reach > 0) x = point_in_ball(point[i], shape.bounding_radius);
-    net_point[i] = to_float(shape.query_rotation * (x * shape.query_scale) + shape.query_shift);
+    net_point[i] = to_network(network_frame(shape), scene.cohesion_reach, point[i]);
     net_row[i] = shape.bias_row;
   }
 };
-
-// Continues phi beyond the ball, from its value and gradient at the point on the ball.
-SCREE_HD void continue_outside(Vec3 x, double radius, double& phi, Vec3* gradient) {
-  double const r = norm(x);
-  Vec3 const along = x / r;
-  phi += phi_outside_ball(r, radius);
-  if (gradient) *gradient = (*gradient - along * dot(along, *gradient)) * (radius / r) - along;
-}
 
 struct FromNetwork {
   SceneView scene;
@@ -49,14 +35,9 @@ struct FromNetwork {
   Span<Vec3> gradient;
 
   SCREE_HD void operator()(int i) const {
-    ShapeRecord const& shape = scene.shape_record(partner[i]);
-    double const r2 = norm2(point[i]);
-    bool const outside = r2 > shape.bounding_radius * shape.bounding_radius;
-    phi[i] = outside ? phi_outside_ball(std::sqrt(r2), shape.bounding_radius) : net_phi[i] / shape.query_scale;
-    if (!net_gradient.empty()) gradient[i] = transposed_times(shape.query_rotation, to_double(net_gradient[i]));
-    if (!(outside && scene.cohesion_reach > 0)) return;
-    phi[i] = net_phi[i] / shape.query_scale;
-    continue_outside(point[i], shape.bounding_radius, phi[i], net_gradient.empty() ? nullptr : &gradient[i]);
+    bool const with_gradient = !net_gradient.empty();
+    from_network(network_frame(scene.shape_record(partner[i])), scene.cohesion_reach, point[i], net_phi[i],
+                 with_gradient ? &net_gradient[i] : nullptr, phi[i], with_gradient ? &gradient[i] : nullptr);
   }
 };
 
@@ -129,22 +110,16 @@ struct EvaluateInBall {
   }
 };
 
-void evaluate(Queue const& queue, SceneView const& scene, NetworkSet const& networks, QueryBatch& batch,
-              bool with_gradient) {
-  int const n = static_cast<int>(batch.point.size());
-  if (n == 0) return;
-  Span<const Vec3> const point = batch.point;
-  Span<const int> const partner = batch.partner;
-  Span<double> const phi = batch.phi;
-  if (with_gradient) batch.gradient.resize(n);
-  Span<Vec3> const gradient = with_gradient ? Span<Vec3>(batch.gradient) : Span<Vec3>();
+// Networks on the host: their frame, the network, and back.
+void evaluate_networks(Queue const& queue, SceneView const& scene, NetworkSet const& networks, QueryBatch& batch,
+                       bool with_gradient) {
   int const net_items = batch.group[networks.net.size()];
   batch.net_point.resize(net_items);
   batch.net_row.resize(net_items);
   batch.net_phi.resize(net_items);
   if (with_gradient) batch.net_gradient.resize(net_items);
   parallel_for(queue, "sdf_net/to_network", net_items,
-               ToNetworkFrame{scene, point, partner, batch.net_point, batch.net_row}, 512);
+               ToNetworkFrame{scene, batch.point, batch.partner, batch.net_point, batch.net_row}, 512);
   for (std::size_t k = 0; k < networks.net.size(); ++k) {
     int const first = batch.group[k], count = batch.group[k + 1] - first;
     if (count == 0) continue;
@@ -158,9 +133,19 @@ void evaluate(Queue const& queue, SceneView const& scene, NetworkSet const& netw
       sdf_forward(queue, networks.net[k], networks.bias_rows[k], points, rows, values);
   }
   parallel_for(queue, "sdf_net/from_network", net_items,
-               FromNetwork{scene, point, partner, batch.net_phi,
-                           with_gradient ? Span<const Vec3f>(batch.net_gradient) : Span<const Vec3f>(), phi, gradient},
+               FromNetwork{scene, batch.point, batch.partner, batch.net_phi,
+                           with_gradient ? Span<const Vec3f>(batch.net_gradient) : Span<const Vec3f>(), batch.phi,
+                           with_gradient ? Span<Vec3>(batch.gradient) : Span<Vec3>()},
                512);
+}
+
+// Everything that no network answers.
+void evaluate_others(Queue const& queue, SceneView const& scene, NetworkSet const& networks, QueryBatch& batch,
+                     bool with_gradient) {
+  Span<const Vec3> const point = batch.point;
+  Span<const int> const partner = batch.partner;
+  Span<double> const phi = batch.phi;
+  Span<Vec3> const gradient = with_gradient ? Span<Vec3>(batch.gradient) : Span<Vec3>();
   auto const run = [&]<class Functor>(SdfKind kind, char const* name, Functor functor, int grain) {
     int const group = query_group(kind, -1, static_cast<int>(networks.net.size()));
     int const first = batch.group[group], count = batch.group[group + 1] - first;
@@ -176,6 +161,21 @@ void evaluate(Queue const& queue, SceneView const& scene, NetworkSet const& netw
   run(SdfKind::analytic, "sdf_analytic/evaluate", EvaluateAnalytic{}, 128);
 }
 
+// `gradient_from` [m]: gradients where phi times diameter is above it.
+double constexpr everywhere = -std::numeric_limits<double>::infinity();
+double constexpr nowhere = std::numeric_limits<double>::infinity();
+
+void evaluate(Queue const& queue, SceneView const& scene, NetworkSet const& networks, QueryBatch& batch,
+              bool with_gradient) {
+  if (batch.point.empty()) return;
+  if (with_gradient) batch.gradient.resize(batch.point.size());
+  if (networks.device)
+    networks.device->evaluate(queue, batch, with_gradient ? everywhere : nowhere);
+  else
+    evaluate_networks(queue, scene, networks, batch, with_gradient);
+  evaluate_others(queue, scene, networks, batch, with_gradient);
+}
+
 }  // namespace
 
 void evaluate_phi(Queue const& queue, SceneView const& scene, NetworkSet const& networks, QueryBatch& batch) {
@@ -184,6 +184,25 @@ void evaluate_phi(Queue const& queue, SceneView const& scene, NetworkSet const& 
 
 void evaluate_phi_gradient(Queue const& queue, SceneView const& scene, NetworkSet const& networks, QueryBatch& batch) {
   evaluate(queue, scene, networks, batch, true);
+}
+
+bool evaluate_phi_and_some_gradients(Queue const& queue, SceneView const& scene, NetworkSet const& networks,
+                                     QueryBatch& batch, double gradient_from) {
+  if (!networks.device || batch.point.empty()) {
+    evaluate(queue, scene, networks, batch, false);
+    return false;
+  }
+  batch.gradient.resize(batch.point.size());
+  networks.device->evaluate(queue, batch, gradient_from);
+  evaluate_others(queue, scene, networks, batch, false);
+  return true;
+}
+
+void evaluate_others_phi_gradient(Queue const& queue, SceneView const& scene, NetworkSet const& networks,
+                                  QueryBatch& batch) {
+  if (batch.point.empty()) return;
+  batch.gradient.resize(batch.point.size());
+  evaluate_others(queue, scene, networks, batch, true);
 }
 
 }  // namespace scree

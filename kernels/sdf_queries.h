@@ -3,9 +3,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "kernels/base/queue.h"
+#include "kernels/network_device.h"
 #include "kernels/sdf/sdf_batch.h"
 #include "kernels/views.h"
 
@@ -15,6 +17,7 @@ namespace scree {
 struct NetworkSet {
   std::vector<PackedMlp> net;
   std::vector<std::vector<float>> bias_rows;  // of network i, bias_stride() floats a row
+  std::shared_ptr<NetworkDevice> device;      // loaded with these; null: the host evaluates them
 };
 
 // Groups of queries: one a network, then one for each other kind in the order of SdfKind; planes and formulas come
@@ -49,10 +52,12 @@ struct QueryBatch {
 void evaluate_phi(Queue const& queue, SceneView const& scene, NetworkSet const& networks, QueryBatch& batch);
 void evaluate_phi_gradient(Queue const& queue, SceneView const& scene, NetworkSet const& networks, QueryBatch& batch);
 
-// phi from outside the bounding sphere: a bound, not a distance. With cohesion, which pulls on nodes outside, it has to
-// be continuous: then it is phi on the sphere at the same ray, less the distance to the sphere.
-SCREE_HD inline double phi_outside_ball(double distance_to_centre, double radius) {
-  return radius - distance_to_centre;
-}
+// phi of all points. On a device, which then saves a second launch, also the gradients of the networks' points with
+// phi times the partner's diameter above `gradient_from` [m]; says whether it did.
+bool evaluate_phi_and_some_gradients(Queue const& queue, SceneView const& scene, NetworkSet const& networks,
+                                     QueryBatch& batch, double gradient_from);
+// phi and gradient of the points whose phi is not a network's.
+void evaluate_others_phi_gradient(Queue const& queue, SceneView const& scene, NetworkSet const& networks,
+                                  QueryBatch& batch);
 
 }  // namespace scree

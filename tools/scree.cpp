@@ -11,6 +11,7 @@
 
 #include "core/case.h"
 #include "kernels/base/build_info.h"
+#include "kernels/base/device.h"
 #include "kernels/sdf/sdf_batch.h"
 #include "tools/scree_commands.h"
 

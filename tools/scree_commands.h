@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "core/simulation.h"
+
 namespace scree {
 
 enum ExitCode : int {
@@ -16,11 +18,6 @@ enum ExitCode : int {
   exit_device = 3,        // the device asked for is not there
   exit_file = 4,          // a file or folder cannot be written or is in use
   exit_interrupted = 130  // SIGINT or SIGTERM; a checkpoint is written, the files are complete up to that moment
-};
-
-class DeviceError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
 };
 
 struct CaseArguments {
@@ -89,8 +86,11 @@ int export_command(ExportArguments const& arguments);
 int envelopes_command(EnvelopesArguments const& arguments);
 int export_surfaces(ExportArguments const& arguments);  // where arguments.surfaces is set
 
-// Threads to use, and the device check every command that computes goes through: `cuda` in a build without it throws
-// DeviceError; `auto` falls back to the CPU. `note` says what was chosen and why.
-int choose_threads(CaseArguments const& arguments, std::string* note = nullptr);
+// Threads to use: all cores unless the user says otherwise.
+int choose_threads(CaseArguments const& arguments);
+
+// Where a case runs. `cuda` without a usable device throws DeviceError; `auto` then falls back to the CPU. `note` says
+// what was chosen and why.
+SimulationOptions choose_backend(CaseArguments const& arguments, std::string* note = nullptr);
 
 }  // namespace scree

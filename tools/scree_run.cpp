@@ -15,6 +15,7 @@
 #include "core/paraview.h"
 #include "core/results_layout.h"
 #include "core/simulation.h"
+#include "kernels/base/device.h"
 #include "tools/run_checkpoints.h"
 #include "tools/scree_commands.h"
 #include "tools/scree_folder.h"
@@ -199,27 +200,38 @@ void summarise(RunLog& log, OutputFolder const& folder, Case const& c, Simulatio
 
 }  // namespace
 
-int choose_threads(CaseArguments const& arguments, std::string* note) {
-  if (arguments.device == "cuda")
-    throw DeviceError("--device cuda: this version of the engine has no CUDA backend; use --device cpu or auto");
+int choose_threads(CaseArguments const& arguments) {
   int const cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  int const threads = arguments.threads > 0 ? arguments.threads : cores;
-  if (note) *note = fmt::format("CPU, {} thread{}", threads, threads == 1 ? "" : "s");
-  if (note && arguments.device == "auto") *note += " (auto: no CUDA backend in this build)";
-  return threads;
+  return arguments.threads > 0 ? arguments.threads : cores;
+}
+
+SimulationOptions choose_backend(CaseArguments const& arguments, std::string* note) {
+  SimulationOptions options;
+  options.threads = choose_threads(arguments);
+  std::string const cpu = fmt::format("CPU, {} thread{}", options.threads, options.threads == 1 ? "" : "s");
+  std::string device = cpu;
+  if (arguments.device != "cpu") {
+    try {
+      options.network_device = make_cuda_network_device();
+      device = fmt::format("networks on {}; all else on {}", options.network_device->describe(), cpu);
+    } catch (DeviceError const& error) {
+      if (arguments.device == "cuda") throw DeviceError(fmt::format("--device cuda: {}", error.what()));
+      device += fmt::format(" (auto: {})", error.what());
+    }
+  }
+  if (note) *note = device;
+  return options;
 }
 
 int run_command(RunArguments const& arguments) {
   std::string device;
-  int const threads = choose_threads(arguments.scene, &device);
+  SimulationOptions const options = choose_backend(arguments.scene, &device);
   // Everything that can be wrong with the input is found before the output folder is touched.
   Case const c = load_case(arguments.scene.file, arguments.scene.overrides, arguments.scene.share);
   fs::path const output =
       arguments.output.empty() ? fs::path(arguments.scene.file.stem().string() + ".out") : arguments.output;
   FolderUse const use = arguments.resume ? FolderUse::resume : arguments.force ? FolderUse::replace : FolderUse::fresh;
   OutputFolder::check(output, use);
-  SimulationOptions options;
-  options.threads = threads;
   Simulation simulation(c, options);
   ResultsHeader const header = simulation.results_header();
   std::vector<std::string> remarks;
@@ -263,7 +275,7 @@ int run_command(RunArguments const& arguments) {
   recorder.finish(simulation, stages);
   if (ending.code == exit_ok && checkpoints.scheduled()) last = checkpoints.write(simulation, written);
   if (last) log.say(fmt::format("checkpoint {}", last->string()));
-  write_text(folder.file("stages.json"), stages_json(stages, simulation, threads, wall));
+  write_text(folder.file("stages.json"), stages_json(stages, simulation, options.threads, wall));
   summarise(log, folder, c, simulation, recorder, ending, stages, wall);
   if (ending.code == exit_watch) fmt::print(stderr, "scree: error: {}\n", ending.text);
   return ending.code;

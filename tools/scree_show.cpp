@@ -22,9 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 Simulation simulation_of(CaseArguments const& arguments, Case const& c) {
-  SimulationOptions options;
-  options.threads = choose_threads(arguments);
-  return Simulation(c, options);
+  return Simulation(c, choose_backend(arguments));
 }
 
 // A certificate's figure; a negative one was not measured.

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "kernels/base/profile.h"
+#include "kernels/sdf/mlp_fold.h"
 #include "kernels/sdf/sdf_batch.h"
 
 namespace scree {
@@ -54,25 +55,6 @@ float* aligned(std::vector<Line>& lines, std::size_t floats) {
 }
 
 int round_up(int n, int step) { return (n + step - 1) / step * step; }
-
-// How the activation's constant moves into the weights. Forward weights and biases of layer l are multiplied by
-// forward(l) and bias(l), so that hidden activations take no constant; backward(l) turns the stored record back into
-// d phi / d z. Sine: sin(omega z) = sin(pi z'), z' = omega z / pi. Softplus: h = h' / beta, h' = log(1 + exp(beta z)).
-struct Fold {
-  double first = 1, middle = 1, last = 1, hidden_bias = 1, backward_first = 1, backward_middle = 1, backward_last = 1;
-};
-Fold fold_of(Mlp const& net) {
-  double const a = net.parameter, pi = 3.14159265358979323846;
-  switch (net.activation) {
-    case Activation::leaky_relu:
-      return {};
-    case Activation::sine:
-      return {a / pi, a / pi, 1, a / pi, a, a, 1};
-    case Activation::softplus:
-      return {a, 1, 1 / a, a, a, 1, 1 / a};
-  }
-  throw std::invalid_argument("unknown Activation");
-}
 
 }  // namespace
 

@@ -1,0 +1,185 @@
+// network_cuda.cu: the fused network kernel on a CUDA device, and the batches of the hybrid mode.
+// SPDX-License-Identifier: Apache-2.0
+#include <cuda_runtime.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "kernels/base/cuda_buffer.h"
+#include "kernels/base/device.h"
+#include "kernels/base/profile.h"
+#include "kernels/network_device.h"
+#include "kernels/sdf/network_image.h"
+
+namespace scree {
+namespace {
+
+using namespace sdf_fused;
+
+// The lanes of a CUDA thread block. Bodies are empty in the host pass, which never runs them.
+struct ThreadBlock {
+  template <class Step>
+  SCREE_HD void each(Step const& step) const {
+#if defined(__CUDA_ARCH__)
+    step(static_cast<int>(threadIdx.x));
+#endif
+  }
+  SCREE_HD void sync() const {
+#if defined(__CUDA_ARCH__)
+    __syncthreads();
+#endif
+  }
+  // In the order of Lanes::compact: masks of 32 positions, then each lane's place among them.
+  template <class Flag>
+  SCREE_HD int compact(Flag const& flag, int* list, int* masks) const {
+    int total = 0;
+#if defined(__CUDA_ARCH__)
+    int const lane = static_cast<int>(threadIdx.x);
+    bool wanted[points_a_lane];
+    __syncthreads();  // phi of all lanes is written
+    for (int p = 0; p < points_a_lane; ++p) {
+      int const i = p * lanes + lane;
+      wanted[p] = flag(i);
+      unsigned const mask = __ballot_sync(0xffffffffu, wanted[p]);
+      if (lane % 32 == 0) masks[i / 32] = static_cast<int>(mask);
+    }
+    __syncthreads();
+    int before[points_a_lane] = {};
+    for (int word = 0; word < tile_points / 32; ++word) {
+      for (int p = 0; p < points_a_lane; ++p)
+        if ((p * lanes + lane) / 32 == word) before[p] = total;
+      total += __popc(static_cast<unsigned>(masks[word]));
+    }
+    for (int p = 0; p < points_a_lane; ++p) {
+      int const i = p * lanes + lane;
+      unsigned const lower = static_cast<unsigned>(masks[i / 32]) & ((1u << (lane % 32)) - 1u);
+      if (wanted[p]) list[before[p] + __popc(lower)] = i;
+    }
+    __syncthreads();
+#endif
+    return total;
+  }
+};
+
+template <template <class> class Act, int W>
+__global__ void __launch_bounds__(lanes)
+    fused_kernel(__grid_constant__ const Networks networks, __grid_constant__ const Queries queries,
+                 Span<const Tile> tiles, int floats, int column_lanes) {
+  extern __shared__ float4 store[];
+  float* const weight = reinterpret_cast<float*>(store);
+  float* const column = weight + W * W + W;
+  int* const ints = reinterpret_cast<int*>(column + floats);
+  ThreadBlock const block;
+  for (int t = static_cast<int>(blockIdx.x); t < tiles.size(); t += static_cast<int>(gridDim.x))
+    FusedTile<ThreadBlock, Act, W>(block, networks, queries, tiles[t], weight, column, ints).run(column_lanes);
+}
+
+struct ClassOnDevice {
+  CudaBuffer<NetworkRecord> net;
+  CudaBuffer<float> weight, bias;
+  CudaBuffer<Tile> tiles;
+};
+
+class CudaNetworks : public NetworkDevice {
+ public:
+  CudaNetworks() : device_(cuda_device()) {
+    check_cuda(cudaStreamCreate(&stream_), "making a stream");
+    check_cuda(cudaEventCreate(&before_), "making an event");
+    check_cuda(cudaEventCreate(&after_), "making an event");
+  }
+  ~CudaNetworks() override {
+    cudaEventDestroy(before_);
+    cudaEventDestroy(after_);
+    cudaStreamDestroy(stream_);
+  }
+  CudaNetworks(CudaNetworks const&) = delete;
+  CudaNetworks& operator=(CudaNetworks const&) = delete;
+
+  std::string describe() const override { return scree::describe(device_); }
+
+  void load(SceneView const& scene, NetworkSet const& networks) override {
+    image_ = make_network_image(scene, networks);
+    classes_.clear();
+    classes_.resize(image_.classes.size());
+    for (std::size_t c = 0; c < classes_.size(); ++c) {
+      NetworkClass const& from = image_.classes[c];
+      classes_[c].net.upload(from.net, stream_);
+      classes_[c].weight.upload(from.weight, stream_);
+      classes_[c].bias.upload(from.bias, stream_);
+    }
+    frame_.upload(image_.frame, stream_);
+    shape_of_.upload(image_.shape_of, stream_);
+    diameter_.upload(image_.diameter, stream_);
+    check_cuda(cudaStreamSynchronize(stream_), "loading networks");
+  }
+
+  void evaluate(Queue const& queue, QueryBatch& batch, double gradient_from) override {
+    int const n = batch.group[image_.class_of.size()];
+    if (n == 0) return;
+    ScopedTimer const timer(queue.profile, "sdf_net/device", n);
+    bool const with_gradient = !(std::isinf(gradient_from) && gradient_from > 0);
+    point_.upload(Span<const Vec3>(batch.point).subspan(0, n), stream_);
+    partner_.upload(Span<const int>(batch.partner).subspan(0, n), stream_);
+    phi_.resize(n);
+    if (with_gradient) gradient_.resize(n);
+    Queries const queries{
+        frame_.span(),         shape_of_.span(),    diameter_.span(),
+        image_.cohesion_reach, gradient_from,       point_.span(),
+        partner_.span(),       phi_.mutable_span(), with_gradient ? gradient_.mutable_span() : Span<Vec3>()};
+    auto const tiles = tiles_of(image_, batch.group);
+    for (std::size_t c = 0; c < tiles.size(); ++c) classes_[c].tiles.upload(tiles[c], stream_);
+    check_cuda(cudaEventRecord(before_, stream_), "sdf_net/device");
+    for (std::size_t c = 0; c < tiles.size(); ++c)
+      if (!tiles[c].empty()) dispatch<Launch>(image_.classes[c], *this, image_.classes[c], classes_[c], queries);
+    check_cuda(cudaEventRecord(after_, stream_), "sdf_net/device");
+    phi_.download(Span<double>(batch.phi).subspan(0, n), stream_);
+    // Gradients nobody asked for come back as they were the step before; nobody reads them.
+    if (with_gradient) gradient_.download(Span<Vec3>(batch.gradient).subspan(0, n), stream_);
+    check_cuda(cudaStreamSynchronize(stream_), "sdf_net/device");
+  }
+
+  double kernel_seconds() const override {
+    float milliseconds = 0;
+    check_cuda(cudaEventElapsedTime(&milliseconds, before_, after_), "reading the device's clock");
+    return 1e-3 * milliseconds;
+  }
+
+ private:
+  struct Launch {
+    template <template <class> class Act, int W>
+    static void run(CudaNetworks const& self, NetworkClass const& of, ClassOnDevice const& data,
+                    Queries const& queries) {
+      int const floats = column_floats(W, of.hidden, !queries.gradient.empty());
+      std::size_t const bytes = sizeof(float) * (weight_floats(W) + floats) + sizeof(int) * shared_ints;
+      auto const kernel = fused_kernel<Act, W>;
+      if (bytes > self.device_.shared_memory)
+        throw DeviceError("the network kernel needs " + std::to_string(bytes) + " bytes of shared memory a block; " +
+                          self.device_.name + " has " + std::to_string(self.device_.shared_memory));
+      check_cuda(cudaFuncSetAttribute(kernel, cudaFuncAttributeMaxDynamicSharedMemorySize, static_cast<int>(bytes)),
+                 "sdf_net/device: this build holds no code for the device's chip");
+      int blocks = 0;
+      check_cuda(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&blocks, kernel, lanes, bytes), "occupancy");
+      int const grid = std::min(data.tiles.size(), std::max(1, blocks) * self.device_.multiprocessors);
+      kernel<<<grid, lanes, bytes, self.stream_>>>(Networks{data.net.span(), data.weight.data(), data.bias.data()},
+                                                   queries, data.tiles.span(), floats, gradient_lanes);
+      check_cuda(cudaGetLastError(), "sdf_net/device: launch");
+    }
+  };
+
+  CudaDevice device_;
+  cudaStream_t stream_ = nullptr;
+  cudaEvent_t before_ = nullptr, after_ = nullptr;
+  NetworkImage image_;
+  std::vector<ClassOnDevice> classes_;
+  CudaBuffer<NetworkFrame> frame_;
+  CudaBuffer<int> shape_of_, partner_;
+  CudaBuffer<double> diameter_, phi_;
+  CudaBuffer<Vec3> point_, gradient_;
+};
+
+}  // namespace
+
+std::unique_ptr<NetworkDevice> make_cuda_network_device() { return std::make_unique<CudaNetworks>(); }
+
+}  // namespace scree
