@@ -11,25 +11,30 @@
 
 namespace scree {
 
-void write_png(std::filesystem::path const& file, Image const& image) {
+std::vector<std::uint8_t> png_bytes(Image const& image) {
   if (image.width < 1 || image.height < 1 ||
       image.rgb.size() != 3 * std::size_t(image.width) * std::size_t(image.height))
-    throw std::invalid_argument("write_png: the pixels do not fill the image");
+    throw std::invalid_argument("png_bytes: the pixels do not fill the image");
   png_image header{};
   header.version = PNG_IMAGE_VERSION;
   header.width = static_cast<png_uint_32>(image.width);
   header.height = static_cast<png_uint_32>(image.height);
   header.format = PNG_FORMAT_RGB;
   png_alloc_size_t size = 0;
-  auto const fail = [&] { throw std::runtime_error(file.string() + ": " + header.message); };
+  auto const fail = [&] { throw std::runtime_error(std::string("PNG: ") + header.message); };
   if (!png_image_write_to_memory(&header, nullptr, &size, 0, image.rgb.data(), 0, nullptr)) fail();
-  std::vector<char> bytes(size);
+  std::vector<std::uint8_t> bytes(size);
   if (!png_image_write_to_memory(&header, bytes.data(), &size, 0, image.rgb.data(), 0, nullptr)) fail();
+  bytes.resize(size);
+  return bytes;
+}
 
+void write_png(std::filesystem::path const& file, Image const& image) {
+  std::vector<std::uint8_t> const bytes = png_bytes(image);
   std::filesystem::path temporary = file;
   temporary += ".part";
   std::ofstream out(temporary, std::ios::binary);
-  out.write(bytes.data(), static_cast<std::streamsize>(size));
+  out.write(reinterpret_cast<char const*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
   out.close();
   if (!out) {
     std::error_code const why(errno, std::generic_category());

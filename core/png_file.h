@@ -13,6 +13,9 @@ struct Image {
   std::vector<std::uint8_t> rgb;  // row by row from the top, 3 bytes a pixel
 };
 
+// The PNG file's content. Throws std::invalid_argument when the pixels do not fill the image, std::runtime_error.
+std::vector<std::uint8_t> png_bytes(Image const& image);
+
 // Atomic: a temporary name, then rename. Throws std::system_error or std::runtime_error naming the file.
 void write_png(std::filesystem::path const& file, Image const& image);
 

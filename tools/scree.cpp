@@ -107,6 +107,15 @@ void add_render(CLI::App& app, RenderArguments& a, std::function<int()>& chosen)
   c->callback([&] { chosen = [&] { return render_command(a); }; });
 }
 
+void add_report(CLI::App& app, ReportArguments& a, std::function<int()>& chosen) {
+  CLI::App* const c = app.add_subcommand("report", "Write one self-contained HTML page about a run");
+  c->add_option("run", a.folder, "Output folder of the run, or its results.h5")->required()->check(CLI::ExistingPath);
+  c->add_option("-o,--output", a.page, "Page to write (default: report.html in the folder)");
+  c->add_option("--threads", a.threads, "CPU threads of the picture (default: all cores)")->check(CLI::Range(1, 4096));
+  c->add_flag("--recover", a.recover, "Read the unfinished file of a run that was killed");
+  c->callback([&] { chosen = [&] { return report_command(a); }; });
+}
+
 void add_export(CLI::App& app, ExportArguments& a, std::function<int()>& chosen) {
   CLI::App* const c =
       app.add_subcommand("export", "Write a results file for ParaView (PVD + VTP), or a frame's grains as meshes");
@@ -191,6 +200,7 @@ int main(int argc, char** argv) {
   CaseArguments plan, check;
   InfoArguments info;
   RenderArguments render;
+  ReportArguments report;
   ExportArguments exported;
   EnvelopesArguments envelopes;
   add_run(app, run, chosen);
@@ -198,6 +208,7 @@ int main(int argc, char** argv) {
   add_check(app, check, chosen);
   add_info(app, info, chosen);
   add_render(app, render, chosen);
+  add_report(app, report, chosen);
   add_export(app, exported, chosen);
   add_envelopes(app, envelopes, chosen);
   try {

@@ -77,11 +77,18 @@ struct EnvelopesArguments {
   bool recover = false;
 };
 
+struct ReportArguments {
+  std::filesystem::path folder, page;  // of a run; page empty: report.html in it
+  int threads = 0;
+  bool recover = false;
+};
+
 int run_command(RunArguments const& arguments);
 int plan_command(CaseArguments const& arguments);
 int check_command(CaseArguments const& arguments);
 int info_command(InfoArguments const& arguments);
 int render_command(RenderArguments const& arguments);
+int report_command(ReportArguments const& arguments);
 int export_command(ExportArguments const& arguments);
 int envelopes_command(EnvelopesArguments const& arguments);
 int export_surfaces(ExportArguments const& arguments);  // where arguments.surfaces is set

@@ -1,0 +1,165 @@
+// report_test.cpp: `scree report`: its building blocks, what the page holds, and a browser that opens it without error.
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "tools/report_page.h"
+
+namespace scree {
+namespace {
+
+namespace fs = std::filesystem;
+
+TEST(ReportText, Base64IsThatOfRfc4648) {
+  // Section 10 of the RFC.
+  for (auto const& [text, code] : {std::pair<std::string, std::string>("", ""),
+                                   {"f", "Zg=="},
+                                   {"fo", "Zm8="},
+                                   {"foo", "Zm9v"},
+                                   {"foob", "Zm9vYg=="},
+                                   {"fooba", "Zm9vYmE="},
+                                   {"foobar", "Zm9vYmFy"}})
+    EXPECT_EQ(base64(text.data(), text.size()), code);
+}
+
+TEST(ReportText, StringsCannotLeaveTheirScript) {
+  EXPECT_EQ(json_string("a\"b\\c\n</script>\x01"), "\"a\\\"b\\\\c\\n\\u003c/script>\\u0001\"");
+}
+
+TEST(ReportText, ThinningKeepsFirstAndLast) {
+  EXPECT_EQ(thinned(0, 5), (std::vector<std::size_t>{}));
+  EXPECT_EQ(thinned(1, 5), (std::vector<std::size_t>{0}));
+  EXPECT_EQ(thinned(3, 5), (std::vector<std::size_t>{0, 1, 2}));
+  auto const some = thinned(1001, 11);
+  ASSERT_EQ(some.size(), 11u);
+  for (std::size_t i = 0; i < some.size(); ++i) EXPECT_EQ(some[i], 100 * i);
+}
+
+char const* const case_text = R"([case]
+name = "two </script> <kinds>"
+[time]
+end = 0.002
+step = 1e-5
+[gravity]
+acceleration = [0, 0, -9.81]
+[[material]]
+name = "rock"
+density = 2650
+[[contact]]
+pair = ["rock", "rock"]
+normal = { stiffness = 2e6 }
+[[grains]]
+name = "one"
+material = "rock"
+shapes = ["sphere", "box:1:0.8:0.6"]
+nodes = 250
+count = 4
+diameter = 0.1
+insert = { kind = "lattice", box = [[0, 0, 0], [0.4, 0.4, 0.4]], velocity = [0, 0, -1] }
+[[wall]]
+name = "floor"
+kind = "plane"
+point = [0, 0, 0]
+normal = [0, 0, 1]
+material = "rock"
+[[wall]]
+name = "drum"
+kind = "cylinder"
+from = [0.2, 0.2, -1]
+to = [0.2, 0.2, 1]
+radius = 0.6
+material = "rock"
+[[measure]]
+name = "contacts"
+kind = "coordination"
+every = 0.0002
+[output]
+every = 0.001
+)";
+
+struct Outcome {
+  int code = -1;
+  std::string text;
+};
+Outcome shell(std::string const& command) {
+  std::FILE* const pipe = ::popen((command + " 2>&1").c_str(), "r");
+  Outcome out;
+  std::array<char, 4096> buffer;
+  for (std::size_t n; (n = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;) out.text.append(buffer.data(), n);
+  int const status = ::pclose(pipe);
+  out.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  return out;
+}
+
+class Report : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder = fs::temp_directory_path() / ("scree_report_" + std::to_string(::getpid()));
+    fs::create_directories(folder);
+    std::ofstream(folder / "two.toml") << case_text;
+    Outcome const run = shell(SCREE_PROGRAM " run " + (folder / "two.toml").string() +
+                              " --threads 1 --quiet --output " + (folder / "out").string());
+    ASSERT_EQ(run.code, 0) << run.text;
+    Outcome const report = shell(SCREE_PROGRAM " report " + (folder / "out").string());
+    ASSERT_EQ(report.code, 0) << report.text;
+    std::ostringstream text;
+    text << std::ifstream(folder / "out/report.html").rdbuf();
+    html = text.str();
+  }
+  static void TearDownTestSuite() { fs::remove_all(folder); }
+  static fs::path folder;
+  static std::string html;
+};
+fs::path Report::folder;
+std::string Report::html;
+
+TEST_F(Report, HoldsEverythingAndAsksNobody) {
+  EXPECT_LT(html.size(), 5'000'000u);
+  for (char const* word : {"@DATA@", "@RUN@", "@PICTURE@", "@TITLE@", "fetch(", "XMLHttpRequest", "<link", "import(",
+                           "src=\"http", "href=\"http", "url(http"})
+    EXPECT_EQ(html.find(word), std::string::npos) << word;
+  for (char const* word : {"contacts.grains", "lost to contact damping", "integrate", "data:image/png;base64,iVBOR",
+                           "particle_steps_per_second", "\"solid\":true", "\"solid\":false"})
+    EXPECT_NE(html.find(word), std::string::npos) << word;
+  EXPECT_NE(html.find("<title>two &lt;/script> &lt;kinds></title>"), std::string::npos);
+}
+
+TEST_F(Report, NamesWhatIsNotThere) {
+  Outcome const none = shell(SCREE_PROGRAM " report " + (folder / "nowhere").string());
+  EXPECT_EQ(none.code, 2);
+  EXPECT_NE(none.text.find("nowhere"), std::string::npos) << none.text;
+  Outcome const blocked =
+      shell(SCREE_PROGRAM " report " + (folder / "out").string() + " -o " + (folder / "absent/page.html").string());
+  EXPECT_EQ(blocked.code, 4);
+  EXPECT_NE(blocked.text.find("page.html"), std::string::npos) << blocked.text;
+}
+
+// A browser runs the page to its end and finds nothing to complain of.
+TEST_F(Report, OpensInABrowserWithoutAnError) {
+  if (shell("command -v chromium").code != 0) GTEST_SKIP() << "no chromium on the PATH";
+  std::string const browser =
+      "timeout 120 chromium --headless=new --no-sandbox --use-angle=swiftshader "
+      "--enable-unsafe-swiftshader --enable-logging=stderr --virtual-time-budget=8000 "
+      "--user-data-dir=" +
+      (folder / "profile").string() + " --dump-dom file://";
+  Outcome const page = shell(browser + (folder / "out/report.html").string());
+  EXPECT_NE(page.text.find("data-ready=\"yes\""), std::string::npos) << page.text.substr(0, 2000);
+  EXPECT_EQ(page.text.find("CONSOLE"), std::string::npos) << page.text.substr(0, 2000);
+  EXPECT_NE(page.text.find("<path d=\"M"), std::string::npos) << "no curve was drawn";
+
+  // The check itself: a page with an error is noticed.
+  std::ofstream(folder / "broken.html") << "<script>undefined_name();</script>";
+  Outcome const broken = shell(browser + (folder / "broken.html").string());
+  EXPECT_NE(broken.text.find("CONSOLE"), std::string::npos) << broken.text.substr(0, 2000);
+}
+
+}  // namespace
+}  // namespace scree
