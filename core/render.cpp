@@ -10,6 +10,7 @@
 #include <string>
 
 #include "core/grain_rays.h"
+#include "core/render_noise.h"
 #include "core/render_stage.h"
 #include "core/render_walls.h"
 
@@ -21,22 +22,11 @@ double constexpr infinity = std::numeric_limits<double>::infinity();
 int constexpr tile = 32;                // pixels an edge: 1,024 rays share the grains they meet
 double constexpr edge_contrast = 0.05;  // of display brightness: above it a pixel is sampled again
 
-// Linear RGB. Kinds take colours in order of their name; after the last one they start again.
-Vec3 constexpr kind_colour[] = {{0.25, 0.30, 0.37}, {0.58, 0.45, 0.29}, {0.49, 0.22, 0.14}, {0.27, 0.35, 0.20},
-                                {0.62, 0.60, 0.54}, {0.22, 0.38, 0.42}, {0.48, 0.33, 0.40}, {0.70, 0.62, 0.28}};
+// Linear RGB.
 Vec3 constexpr floor_colour{0.33, 0.33, 0.325};
 Vec3 constexpr glass_colour{0.70, 0.80, 0.88};
 Vec3 constexpr edge_colour{0.10, 0.13, 0.17};
 Vec3 constexpr sun_light{2.45, 2.22, 1.92}, sky_light{0.56, 0.64, 0.78}, ground_light{0.26, 0.24, 0.22};
-
-std::uint32_t mixed(std::uint32_t x) {  // Wang's integer hash
-  x = (x ^ 61u) ^ (x >> 16);
-  x *= 9u;
-  x ^= x >> 4;
-  x *= 0x27d4eb2du;
-  return x ^ (x >> 15);
-}
-double unit(std::uint32_t x) { return mixed(x) / 4294967296.0; }
 
 // Value noise in the body's own frame: speckle that turns with the grain, so that rotation shows.
 double speckle(Vec3 p, std::uint32_t seed) {
@@ -52,8 +42,8 @@ double speckle(Vec3 p, std::uint32_t seed) {
       double const s = f[i] * f[i] * (3 - 2 * f[i]);
       weight *= bit[i] ? s : 1 - s;
     }
-    sum +=
-        weight * unit(seed + 73856093u * static_cast<std::uint32_t>(x + dx) +
+    sum += weight *
+           unit_noise(seed + 73856093u * static_cast<std::uint32_t>(x + dx) +
                       19349663u * static_cast<std::uint32_t>(y + dy) + 83492791u * static_cast<std::uint32_t>(z + dz));
   }
   return sum;
@@ -95,15 +85,18 @@ class Painter {
     double const rise = stage_.shown().max.z - stage_.shown().min.z;
     contour_step_ = std::pow(10.0, std::floor(std::log10(std::max(rise, 1e-9) / 2)));
     sun_ = normalized(Vec3{std::cos(azimuth), std::sin(azimuth), 1.35});
-    choose_colours(header);
+    cut_ = options.cut;
+    colour_limit_ = options.colour_limit;
+    colour_ = body_colours(header, frame, options.colour, colour_limit_);
   }
   Camera const& camera() const { return camera_; }
+  double colour_limit() const { return colour_limit_; }
 
   void paint(std::vector<Ray> const& rays, std::vector<Sample>& samples) const {
     std::size_t const n = rays.size();
     samples.assign(n, {});
     std::vector<RayHit> hits;
-    grains_.trace(rays, hits);
+    trace_grains(rays, hits);
     std::vector<int> lit;  // samples that show a surface
     std::vector<Vec3> point, normal;
     find_surfaces(rays, hits, samples, lit, point, normal);
@@ -118,21 +111,37 @@ class Painter {
   }
 
  private:
-  void choose_colours(ResultsHeader const& header) {
-    std::vector<std::string> kinds;
-    std::vector<std::string> kind_of;
-    for (Shape const& s : header.library.shape) kind_of.push_back(s.name.substr(0, s.name.find_first_of("/:")));
-    kinds = kind_of;
-    std::sort(kinds.begin(), kinds.end());
-    kinds.erase(std::unique(kinds.begin(), kinds.end()), kinds.end());
-    for (std::size_t i = 0; i < header.shape.size(); ++i) {
-      auto const kind = std::lower_bound(kinds.begin(), kinds.end(), kind_of[header.shape[i]]) - kinds.begin();
-      Vec3 c = kind_colour[static_cast<std::size_t>(kind) % std::size(kind_colour)];
-      auto const seed = static_cast<std::uint32_t>(3 * i + 1);
-      c *= 0.78 + 0.44 * unit(seed);
-      double const warm = 0.16 * (unit(seed + 1) - 0.5);
-      colour_.push_back({c.x * (1 + warm), c.y, c.z * (1 - warm)});
+  // The part of a ray that is not cut away: from `begin` on, up to its limit. Nothing may be left.
+  Ray kept(Ray ray, double& begin) const {
+    begin = 0;
+    if (!cut_) return ray;
+    double const out = dot(cut_->normal, ray.origin - cut_->point), towards = dot(cut_->normal, ray.direction);
+    if (out > 0) {
+      begin = towards < 0 ? -out / towards : infinity;
+      if (begin < infinity) ray.origin += ray.direction * begin;
+      ray.limit = begin < infinity ? ray.limit - begin : 0;
+    } else if (towards > 0) {
+      ray.limit = std::min(ray.limit, -out / towards);
     }
+    return ray;
+  }
+
+  void trace_grains(std::vector<Ray> const& rays, std::vector<RayHit>& hits, bool any = false) const {
+    if (!cut_) return grains_.trace(rays, hits, any);
+    std::vector<Ray> part(rays.size());
+    std::vector<double> begin(rays.size());
+    for (std::size_t i = 0; i < rays.size(); ++i) part[i] = kept(rays[i], begin[i]);
+    grains_.trace(part, hits, any);
+    for (std::size_t i = 0; i < rays.size(); ++i)
+      if (hits[i].body >= 0 && hits[i].distance > part[i].limit)
+        hits[i] = {};
+      else
+        hits[i].distance += begin[i];
+  }
+
+  // On the cut itself, where a grain shows its inside.
+  bool on_cut(Vec3 point) const {
+    return cut_ && std::abs(dot(cut_->normal, point - cut_->point)) < 1e-3 * grains_.mean_diameter();
   }
 
   void find_surfaces(std::vector<Ray> const& rays, std::vector<RayHit> const& hits, std::vector<Sample>& samples,
@@ -156,7 +165,7 @@ class Painter {
         samples[i] = {{}, hits[i].body, hits[i].distance};
         lit.push_back(static_cast<int>(i));
         point.push_back(grain_point[g]);
-        normal.push_back(grain_normal[g]);
+        normal.push_back(on_cut(grain_point[g]) ? cut_->normal : grain_normal[g]);
       } else if (floor < infinity) {
         samples[i] = {{}, render_floor, floor, wall.has_value()};
         lit.push_back(static_cast<int>(i));
@@ -173,7 +182,7 @@ class Painter {
     std::vector<Ray> rays;
     for (std::size_t k = 0; k < point.size(); ++k) rays.push_back({point[k] + normal[k] * (0.004 * d), sun_});
     std::vector<RayHit> hits;
-    grains_.trace(rays, hits, true);
+    trace_grains(rays, hits, true);
     sun.resize(point.size());
     for (std::size_t k = 0; k < point.size(); ++k) {
       bool const seen = hits[k].body < 0 && dot(normal[k], sun_) > 0 && !walls_.first(rays[k], infinity);
@@ -181,6 +190,7 @@ class Painter {
     }
 
     open.assign(point.size(), 1.0);
+    if (cut_) return;  // what was cut away would still stand in the sky's way
     double weight = 0.80;
     std::vector<Vec3> probe(point.size());
     std::vector<double> clear;
@@ -241,7 +251,9 @@ class Painter {
   Camera camera_;
   Vec3 sun_;
   double size_ = 1, pixel_ = 0;
-  double contour_step_ = 1;   // [m]
+  double contour_step_ = 1;  // [m]
+  std::optional<CutPlane> cut_;
+  double colour_limit_ = 0;
   std::vector<Vec3> colour_;  // of each body
 };
 
@@ -335,6 +347,8 @@ void check(RenderOptions const& o) {
   if (o.width < 1 || o.height < 1 || o.width > 16384 || o.height > 16384)
     fail("the picture is " + std::to_string(o.width) + " x " + std::to_string(o.height) + " pixels; 1..16384 each");
   if (o.threads < 1) fail("threads must be 1 or more");
+  if (o.cut && !(is_finite(o.cut->point) && std::abs(norm(o.cut->normal) - 1) < 1e-9))
+    fail("the cut needs a finite point and a unit normal");
   if (!o.camera) return;
   if (!(o.camera->field_of_view > 0 && o.camera->field_of_view < 3)) fail("the field of view must be 0..3 rad");
   if (!is_finite(o.camera->eye) || !is_finite(o.camera->target) || o.camera->eye == o.camera->target)
@@ -351,7 +365,7 @@ Rendering render(ResultsHeader const& header, Frame const& frame, RenderOptions 
   first_pass(painter, lens, options, pixels);
   if (options.smooth_edges) smooth(painter, lens, options, pixels);
 
-  Rendering r{{options.width, options.height, {}}, {}, {}, painter.camera()};
+  Rendering r{{options.width, options.height, {}}, {}, {}, painter.camera(), painter.colour_limit()};
   for (Sample const& s : pixels) {
     for (double c : {s.colour.x, s.colour.y, s.colour.z}) r.image.rgb.push_back(srgb(c));
     r.id.push_back(s.id);

@@ -100,6 +100,19 @@ void add_render(CLI::App& app, RenderArguments& a, std::function<int()>& chosen)
   c->add_option("--size", a.size, "Width x height in pixels")->capture_default_str();
   c->add_option("--azimuth", a.azimuth, "Camera's direction from the scene round the vertical, 0 from +x [deg]");
   c->add_option("--elevation", a.elevation, "Camera's height above the horizon [deg]")->check(CLI::Range(-89.0, 89.0));
+  c->add_option("--frames", a.frames,
+                "A sequence with one camera, FIRST:LAST or FIRST:LAST:STEP; negative counts from the end. Pictures are "
+                "named PICTURE-0000.png ...")
+      ->excludes("--frame");
+  c->add_option("--colour,--color", a.colour, "Of the grains: by kind, [[grains]] entry, replica, speed or spin")
+      ->check(CLI::IsMember({"kind", "entry", "replica", "speed", "spin"}))
+      ->capture_default_str();
+  c->add_option("--colour-limit,--color-limit", a.colour_limit,
+                "Speed [m/s] or spin [rad/s] at the bright end of the scale (default: the largest in the first frame)")
+      ->check(CLI::PositiveNumber);
+  c->add_option("--cut", a.cut, "Plane X,Y,Z,NX,NY,NZ [m]: grains are cut open, the side the normal points to is gone")
+      ->delimiter(',')
+      ->expected(6);
   c->add_option("--ids", a.ids,
                 "Also write which body each pixel shows: number + 1 = red + 256 green + 65536 blue, 0: none");
   c->add_option("--threads", a.threads, "CPU threads (default: all cores)")->check(CLI::Range(1, 4096));

@@ -41,6 +41,10 @@ struct RenderArguments {
   int frame = -1;
   std::string size = "1280x960";
   std::optional<double> azimuth, elevation;  // of the camera [deg]; none: its own choice
+  std::string frames;                        // "first:last[:step]": a sequence; empty: `frame` alone
+  std::string colour = "kind";               // see core/render_colours.h
+  double colour_limit = 0;                   // of a scale; 0: the largest value in the (first) frame
+  std::vector<double> cut;                   // point and normal of a plane, 6 numbers; empty: none
   int threads = 0;
   bool recover = false;
 };

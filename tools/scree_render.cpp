@@ -33,9 +33,36 @@ Image id_image(Rendering const& rendering) {
   return image;
 }
 
-}  // namespace
+// "first:last:step" of `count` frames -> their numbers; negative counts from the end.
+std::vector<int> read_frames(std::string const& text, int count) {
+  int first = 0, last = 0, step = 1, end = 0;
+  bool const two = std::sscanf(text.c_str(), "%d:%d%n", &first, &last, &end) == 2;
+  bool whole = two && end == static_cast<int>(text.size());
+  if (two && !whole)
+    whole = std::sscanf(text.c_str(), "%d:%d:%d%n", &first, &last, &step, &end) == 3 &&
+            end == static_cast<int>(text.size());
+  if (first < 0) first += count;
+  if (last < 0) last += count;
+  if (!whole || step < 1 || first < 0 || last < first || last >= count)
+    throw InputError({fmt::format("--frames {}: write FIRST:LAST or FIRST:LAST:STEP within 0 ... {}, e.g. 0:-1:10",
+                                  text, count - 1)});
+  std::vector<int> out;
+  for (int k = first; k <= last; k += step) out.push_back(k);
+  return out;
+}
 
-int render_command(RenderArguments const& arguments) {
+CutPlane read_cut(std::vector<double> const& v) {
+  Vec3 const normal{v[3], v[4], v[5]};
+  if (!(norm(normal) > 0)) throw InputError({"--cut: the normal (the last three numbers) has no direction"});
+  return {{v[0], v[1], v[2]}, normalized(normal)};
+}
+
+// picture.png -> picture-0012.png
+std::filesystem::path numbered(std::filesystem::path const& file, int number) {
+  return file.parent_path() / fmt::format("{}-{:04}{}", file.stem().string(), number, file.extension().string());
+}
+
+RenderOptions read_options(RenderArguments const& arguments) {
   RenderOptions options;
   read_size(arguments.size, options);
   CaseArguments machine;
@@ -44,16 +71,42 @@ int render_command(RenderArguments const& arguments) {
   double constexpr degree = 3.141592653589793 / 180;
   if (arguments.azimuth) options.azimuth = *arguments.azimuth * degree;
   if (arguments.elevation) options.elevation = *arguments.elevation * degree;
-  ResultsReader const reader(arguments.results, arguments.recover);
-  Frame const frame = reader.frame(arguments.frame);
-  Rendering const rendering = render(reader.header(), frame, options);
-  write_png(arguments.picture, rendering.image);
-  if (!arguments.ids.empty()) write_png(arguments.ids, id_image(rendering));
-  int const bodies = static_cast<int>(reader.header().shape.size());
+  options.colour = colour_by(arguments.colour);
+  options.colour_limit = arguments.colour_limit;
+  if (!arguments.cut.empty()) options.cut = read_cut(arguments.cut);
+  return options;
+}
+
+void say(std::filesystem::path const& picture, Frame const& frame, int bodies, RenderOptions const& options,
+         Rendering const& rendering) {
   auto const floor = std::count(rendering.id.begin(), rendering.id.end(), render_floor);
-  fmt::print("picture   {}: t = {:.4g} s, {:.0f} % of {} grains visible, floor in {:.0f} % of the pixels\n",
-             arguments.picture.string(), frame.time, 100 * visible_share(rendering, bodies), bodies,
-             100.0 * static_cast<double>(floor) / static_cast<double>(rendering.id.size()));
+  fmt::print("picture   {}: t = {:.4g} s, {:.0f} % of {} grains visible, floor in {:.0f} % of the pixels{}\n",
+             picture.string(), frame.time, 100 * visible_share(rendering, bodies), bodies,
+             100.0 * static_cast<double>(floor) / static_cast<double>(rendering.id.size()),
+             is_scale(options.colour) ? fmt::format(", scale 0 ... {:.4g} {}", rendering.colour_limit,
+                                                    options.colour == ColourBy::speed ? "m/s" : "rad/s")
+                                      : "");
+}
+
+}  // namespace
+
+int render_command(RenderArguments const& arguments) {
+  RenderOptions options = read_options(arguments);
+  ResultsReader const reader(arguments.results, arguments.recover);
+  bool const sequence = !arguments.frames.empty();
+  std::vector<int> const frames =
+      sequence ? read_frames(arguments.frames, reader.frames()) : std::vector<int>{arguments.frame};
+  int const bodies = static_cast<int>(reader.header().shape.size());
+  for (int const k : frames) {
+    Frame const frame = reader.frame(k);
+    Rendering const rendering = render(reader.header(), frame, options);
+    auto const picture = sequence ? numbered(arguments.picture, k) : arguments.picture;
+    write_png(picture, rendering.image);
+    if (!arguments.ids.empty()) write_png(sequence ? numbered(arguments.ids, k) : arguments.ids, id_image(rendering));
+    say(picture, frame, bodies, options, rendering);
+    options.camera = rendering.camera;  // a sequence keeps the camera and the scale of its first picture
+    if (is_scale(options.colour) && rendering.colour_limit > 0) options.colour_limit = rendering.colour_limit;
+  }
   return exit_ok;
 }
 

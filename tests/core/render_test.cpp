@@ -257,5 +257,49 @@ TEST(PngFile, IsReadBackPixelByPixel) {
   EXPECT_THROW(write_png(file, image), std::invalid_argument);
 }
 
+// Two spheres side by side: the faster one has the brighter colour, and the scale ends at what was asked.
+TEST(Render, SpeedsAreColoursOfAScale) {
+  Picture p(make_sphere());
+  p.add({-0.7, 0, 0.5});
+  p.add({0.7, 0, 0.5});
+  p.frame.velocity = {{0, 0, 0}, {3, 0, 4}};
+  p.options.colour = ColourBy::speed;
+  Rendering const r = p.draw();
+  EXPECT_EQ(r.colour_limit, 5);  // 3-4-5
+  auto const mean_grey = [&](Rendering const& of, int id) {
+    double sum = 0;
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x)
+        if (of.id[at(x, y)] == id) sum += grey(of, x, y);
+    return sum / count(of, id);
+  };
+  EXPECT_GT(mean_grey(r, 1), 2 * mean_grey(r, 0));
+  p.options.colour_limit = 1e6;  // now both are at the dark end
+  Rendering const slow = p.draw();
+  EXPECT_EQ(slow.colour_limit, 1e6);
+  EXPECT_NEAR(mean_grey(slow, 1) / mean_grey(slow, 0), 1, 0.1);
+  EXPECT_THROW(colour_by("taste"), std::invalid_argument);
+}
+
+// A sphere cut through its middle shows a disc of its own radius, flat and where the plane is.
+TEST(Render, CutShowsTheInside) {
+  Picture p(make_sphere());
+  p.add({0, 0, 0.5});
+  p.options.camera = Camera{{0, -6, 0.5}, {0, 0, 0.5}, 0.4};
+  p.options.cut = CutPlane{{0, 0, 0.5}, {0, -1, 0}};  // the near half is gone
+  Rendering const r = p.draw();
+  double const focal = focal_length(r.camera), radius = focal * 0.5 / 6;  // the disc lies 6 m away
+  EXPECT_NEAR(count(r, 0), std::numbers::pi * radius * radius, 0.02 * std::numbers::pi * radius * radius);
+  for (int dx : {-20, 0, 20}) {  // depth along a ray to the plane y = 0
+    double const tan = (width / 2 + dx + 0.5 - width / 2.0) / focal;
+    ASSERT_EQ(r.id[at(width / 2 + dx, height / 2)], 0);
+    EXPECT_NEAR(r.depth[at(width / 2 + dx, height / 2)], 6 * std::sqrt(1 + tan * tan), 1e-3);
+  }
+  p.options.cut = CutPlane{{0, 0, 0.5}, {0, 1, 0}};  // the far half is gone: the near one hides that
+  EXPECT_NEAR(p.draw().depth[at(width / 2, height / 2)], 5.5, 1e-3);
+  p.options.cut = CutPlane{{0, 2, 0.5}, {0, -1, 0}};  // all is gone
+  EXPECT_EQ(count(p.draw(), 0), 0);
+}
+
 }  // namespace
 }  // namespace scree
