@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/certificate_gate.h"
+#include "core/made_shapes_cache.h"
 #include "core/nearest_name.h"
 #include "core/sampled_grains.h"
 #include "core/scene_evaluators.h"
@@ -164,7 +165,7 @@ std::vector<int> ShapeCatalogue::make_templates(GrainsCase const& grains, int gr
   int const from = library_called(grains.sample ? grains.sample->library : grains.interpolate->library);
   MadeShapes made;
   try {
-    made = make_shapes(libraries_[from], grains, limits_, seed, group, threads);
+    made = cached_make_shapes(libraries_[from], grains, limits_, seed, group, threads, scene.notes);
   } catch (std::invalid_argument const& e) {
     found.push_back(fmt::format("grains '{}': {}: {}", grains.name, names_[from].file.filename().string(), e.what()));
   }

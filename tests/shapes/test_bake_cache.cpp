@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "shapes/bake_cache.h"
+#include "shapes/content_cache.h"
 #include "tests/support/shape_kinds.h"
 
 namespace scree {
@@ -84,6 +85,13 @@ TEST_F(BakeCache, AFolderThatCannotBeIsANoteNotAnError) {
   EXPECT_NE(notes[0].find("SCREE_CACHE"), std::string::npos);
 }
 
+TEST_F(BakeCache, AnEmptyVariableKeepsNothing) {
+  ::setenv("SCREE_CACHE", "", 1);
+  bake();
+  EXPECT_TRUE(notes.empty());
+  EXPECT_FALSE(fs::exists(folder));
+}
+
 TEST_F(BakeCache, EverythingThatMattersChangesTheKey) {
   std::string const key = bake_key(library, library.shape[0], request);
   auto const differs = [&](auto const& change) {
@@ -112,16 +120,18 @@ TEST(BakeCacheFolder, FollowsTheEnvironment) {
   std::string const home = std::getenv("HOME") ? std::getenv("HOME") : "";
   ::unsetenv("SCREE_CACHE");
   ::setenv("XDG_CACHE_HOME", "/x", 1);
-  EXPECT_EQ(bake_cache_folder(), "/x/scree");
+  EXPECT_EQ(cache_folder(), "/x/scree");
   ::setenv("XDG_CACHE_HOME", "relative", 1);  // the XDG rule: ignored
   ::setenv("HOME", "/h", 1);
-  EXPECT_EQ(bake_cache_folder(), "/h/.cache/scree");
+  EXPECT_EQ(cache_folder(), "/h/.cache/scree");
   ::setenv("SCREE_CACHE", "/own", 1);
-  EXPECT_EQ(bake_cache_folder(), "/own");
+  EXPECT_EQ(cache_folder(), "/own");
+  ::setenv("SCREE_CACHE", "", 1);
+  EXPECT_EQ(cache_folder(), "");
   ::unsetenv("SCREE_CACHE");
   ::unsetenv("XDG_CACHE_HOME");
   ::unsetenv("HOME");
-  EXPECT_EQ(bake_cache_folder(), "");
+  EXPECT_EQ(cache_folder(), "");
   restore("HOME", home.empty() ? nullptr : home.c_str());
 }
 
