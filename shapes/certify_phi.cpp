@@ -18,6 +18,21 @@ double roberts(int i, int k) {
   return x - std::floor(x);
 }
 
+// Of every vertex: the sum over its triangles of normal times angle.
+std::vector<Vec3> corner_normals(TriangleMesh const& mesh) {
+  std::vector<Vec3> normal(mesh.vertex.size());
+  for (auto const& t : mesh.triangle) {
+    Vec3 const* const x[3] = {&mesh.vertex[t[0]], &mesh.vertex[t[1]], &mesh.vertex[t[2]]};
+    Vec3 const out = normalized(cross(*x[1] - *x[0], *x[2] - *x[0]));
+    for (int k = 0; k < 3; ++k) {
+      Vec3 const a = *x[(k + 1) % 3] - *x[k], b = *x[(k + 2) % 3] - *x[k];
+      normal[t[k]] += out * std::atan2(norm(cross(a, b)), dot(a, b));
+    }
+  }
+  for (Vec3& n : normal) n = normalized(n);
+  return normal;
+}
+
 }  // namespace
 
 double percentile(std::vector<double> values, double share) {
@@ -37,14 +52,18 @@ SurfacePoints surface_points(TriangleMesh const& mesh, int count) {
     return cross(mesh.vertex[t[1]] - mesh.vertex[t[0]], mesh.vertex[t[2]] - mesh.vertex[t[0]]);
   };
   for (auto const& t : mesh.triangle) cumulative.push_back(area += norm(twice_area(t)));
+  std::vector<Vec3> const corner = corner_normals(mesh);
   SurfacePoints result;
   for (int i = 0; i < count && area > 0; ++i) {
     auto const pick = std::upper_bound(cumulative.begin(), cumulative.end(), roberts(i, 0) * area);
     auto const& t = mesh.triangle[std::min<std::size_t>(pick - cumulative.begin(), cumulative.size() - 1)];
     double const root = std::sqrt(roberts(i, 1)), v = roberts(i, 2);
-    result.position.push_back(mesh.vertex[t[0]] * (1 - root) + mesh.vertex[t[1]] * (root * (1 - v)) +
-                              mesh.vertex[t[2]] * (root * v));
+    auto const between = [&](std::vector<Vec3> const& of) {
+      return of[t[0]] * (1 - root) + of[t[1]] * (root * (1 - v)) + of[t[2]] * (root * v);
+    };
+    result.position.push_back(between(mesh.vertex));
     result.normal.push_back(normalized(twice_area(t)));
+    result.interpolated.push_back(normalized(between(corner)));
   }
   return result;
 }

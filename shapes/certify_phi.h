@@ -24,9 +24,11 @@ void certify_phi(Library const& library, Shape const& shape, CertifyPhiOptions c
 // Linear in rank between the two nearest values; -1 of nothing. `share` in 0..1.
 double percentile(std::vector<double> values, double share);
 
-// Points of the mesh's surface, uniform in area (low-discrepancy), and the outward unit normals of their triangles.
+// Points of the mesh's surface, uniform in area (low-discrepancy), with outward unit normals: those of their triangles,
+// and those interpolated between the triangle's corners, where a corner's is the mean of the triangles around it
+// weighted by their angles (Thuermer, Wuethrich 1998).
 struct SurfacePoints {
-  std::vector<Vec3> position, normal;
+  std::vector<Vec3> position, normal, interpolated;
 };
 SurfacePoints surface_points(TriangleMesh const& mesh, int count);
 

@@ -91,6 +91,18 @@ std::unique_ptr<MeshTruth> measure_against(InspectArguments const& a, Library co
   return truth;
 }
 
+// The yardstick of certificates is the mesh as it is. A scan's triangles turn to and fro about the surface that they
+// sample: how much of the error is that.
+void print_normals(NormalComparison const& normals) {
+  auto const line = [](char const* what, NormalAngles const& angle) {
+    fmt::print("{:44}{:>8.2f}{:>7.2f}{:>10.2f}\n", what, angle.p50, angle.p95, angle.flat_p95);
+  };
+  fmt::print("\n{:44}{:>8}{:>7}{:>10}\n", "normals at the mesh [degrees]", "p50", "p95", "flat p95");
+  line("phi to the triangles", normals.to_triangles);
+  line("phi to normals interpolated over the mesh", normals.to_interpolated);
+  line("the triangles to the interpolated normals", normals.triangles_to_interpolated);
+}
+
 int inspect(InspectArguments const& a) {
   Library library = read_input([&] { return read_model(a.file); });
   std::vector<Shape*> const chosen = chosen_shapes(library, a);
@@ -106,7 +118,10 @@ int inspect(InspectArguments const& a) {
   for (Shape* s : chosen) certify_phi(library, *s, a.options, s->certificate);
   fmt::print("\nmeasured now from phi\n{}", phi_table(copies(chosen)));
   std::unique_ptr<MeshTruth> const truth = measure_against(a, library, *chosen.front());
-  if (truth) fmt::print("\nmeasured now against the mesh\n{}", error_table(copies(chosen)));
+  if (truth) {
+    fmt::print("\nmeasured now against the mesh\n{}", error_table(copies(chosen)));
+    print_normals(truth->compare_normals(fast_phi(library, *chosen.front(), a.options.threads), a.options.points));
+  }
   if (!a.plot.empty()) {
     std::string const trouble = plot_certificate(library, *chosen.front(), truth.get(), a.plot, a.options.threads);
     fmt::print("{}\n", trouble.empty() ? a.plot.string() + ": drawn" : "no picture: " + trouble);

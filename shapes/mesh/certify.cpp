@@ -73,27 +73,48 @@ SurfacePoints points_on(CertifyTruth const& truth, int count) {
   Sampled const at = sample_truth(truth, surface.position);  // from the chords onto the surface
   for (std::size_t i = 0; i < at.phi.size(); ++i) {
     surface.position[i] -= at.gradient[i] * at.phi[i];
-    surface.normal[i] = -at.gradient[i];
+    surface.normal[i] = surface.interpolated[i] = -at.gradient[i];
   }
   return surface;
+}
+
+// Which points of the surface lie far from sharp edges.
+std::vector<char> flat_points(CertifyTruth const& truth, BodyFrame const& frame, std::vector<Vec3> const& point) {
+  SegmentDistance const edge_distance(sharp_edges(*truth.mesh, edge_angle));
+  std::vector<char> flat;
+  for (Vec3 const& x : point) flat.push_back(edge_distance(x) > edge_reach * frame.scale);
+  return flat;
+}
+
+// `sense`: -1 where one of the two points outwards and the other inwards.
+NormalAngles angles_between(std::vector<Vec3> const& a, std::vector<Vec3> const& b, double sense,
+                            std::vector<char> const& flat) {
+  std::vector<double> angle, flat_angle;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    angle.push_back(std::atan2(norm(cross(a[i], b[i])), sense * dot(a[i], b[i])) * 180 / std::numbers::pi);
+    if (flat[i]) flat_angle.push_back(angle.back());
+  }
+  return {percentile(angle, 0.5), percentile(angle, 0.95), percentile(flat_angle, 0.95)};
+}
+
+NormalComparison compare(Sampled const& on, SurfacePoints const& surface, std::vector<char> const& flat) {
+  NormalComparison result;
+  result.to_triangles = angles_between(on.gradient, surface.normal, -1, flat);
+  result.to_interpolated = angles_between(on.gradient, surface.interpolated, -1, flat);
+  result.triangles_to_interpolated = angles_between(surface.normal, surface.interpolated, 1, flat);
+  result.flat_share = static_cast<double>(std::count(flat.begin(), flat.end(), 1)) / static_cast<double>(flat.size());
+  return result;
 }
 
 void certify_surface(PhiBatch const& phi, CertifyTruth const& truth, BodyFrame const& frame,
                      SurfacePoints const& surface, Certificate& certificate) {
   Sampled const on = sample_shape(phi, frame, surface.position, true);
-  SegmentDistance const edge_distance(sharp_edges(*truth.mesh, edge_angle));
-  std::vector<double> angle, flat_angle;
-  for (std::size_t i = 0; i < on.phi.size(); ++i) {
-    Vec3 const inward = -surface.normal[i];
-    double const turn = std::atan2(norm(cross(on.gradient[i], inward)), dot(on.gradient[i], inward));
-    angle.push_back(turn * 180 / std::numbers::pi);
-    if (edge_distance(surface.position[i]) > edge_reach * frame.scale) flat_angle.push_back(angle.back());
-    certificate.hausdorff = std::max(certificate.hausdorff, std::abs(on.phi[i]) / frame.scale);
-  }
-  certificate.normal_p50 = percentile(angle, 0.5);
-  certificate.normal_p95 = percentile(angle, 0.95);
-  certificate.flat_normal_p95 = percentile(flat_angle, 0.95);
-  certificate.flat_share = static_cast<double>(flat_angle.size()) / static_cast<double>(angle.size());
+  for (double value : on.phi) certificate.hausdorff = std::max(certificate.hausdorff, std::abs(value) / frame.scale);
+  NormalComparison const normals = compare(on, surface, flat_points(truth, frame, surface.position));
+  certificate.normal_p50 = normals.to_triangles.p50;
+  certificate.normal_p95 = normals.to_triangles.p95;
+  certificate.flat_normal_p95 = normals.to_triangles.flat_p95;
+  certificate.flat_share = normals.flat_share;
 }
 
 // Farthest vertex of phi's zero set from the body.
@@ -117,6 +138,12 @@ CertifyTruth truth_of(TriangleMesh const& mesh, PhiBatch distance) {
   truth.inscribed_radius = std::max(phi, 0.0);
   for (Vec3 const& v : mesh.vertex) truth.bounding_radius = std::max(truth.bounding_radius, norm(v));
   return truth;
+}
+
+NormalComparison compare_normals(PhiBatch const& phi, CertifyTruth const& truth, BodyFrame const& frame, int points) {
+  SurfacePoints const surface = points_on(truth, points);
+  return compare(sample_shape(phi, frame, surface.position, true), surface,
+                 flat_points(truth, frame, surface.position));
 }
 
 void certify(PhiBatch const& phi, CertifyTruth const& truth, BodyFrame const& frame, int points, std::uint64_t seed,

@@ -31,6 +31,21 @@ struct CertifyTruth {
 };
 CertifyTruth truth_of(TriangleMesh const& mesh, PhiBatch distance);
 
+// Angles between normals at points of the surface: percentiles over all, and over those farther than 0.03 d from edges
+// that turn by more than 30 degrees [degrees].
+struct NormalAngles {
+  double p50 = -1, p95 = -1, flat_p95 = -1;
+};
+// grad phi against the triangles' normals, the yardstick of certificates, and against normals interpolated over the
+// mesh; and the triangles against the interpolated ones. The last is what the mesh itself leaves open: a scan's
+// triangles turn to and fro about the surface they sample, and a smooth phi cannot follow them.
+struct NormalComparison {
+  NormalAngles to_triangles, to_interpolated, triangles_to_interpolated;
+  double flat_share = -1;  // of the surface
+};
+// Deterministic.
+NormalComparison compare_normals(PhiBatch const& phi, CertifyTruth const& truth, BodyFrame const& frame, int points);
+
 // Fill in the entries of `certificate` that need the truth, volume and inertia errors excepted: mae, p99, max (the
 // paper's shell, uniform in volume between 0.9 inscribed and 1.1 bounding radius), the same for the band (points of the
 // surface moved along its normal by up to contact_band), the normals' errors (points of the surface), hausdorff

@@ -34,6 +34,10 @@ CertifyTruth MeshTruth::truth() const {
       });
 }
 
+NormalComparison MeshTruth::compare_normals(PhiBatch const& phi, int points) const {
+  return scree::compare_normals(phi, truth(), alignment_.frame, points);
+}
+
 void MeshTruth::certify(PhiBatch const& phi, Shape const& shape, int points, std::uint64_t seed,
                         Certificate& certificate) const {
   scree::certify(phi, truth(), alignment_.frame, points, seed, certificate);

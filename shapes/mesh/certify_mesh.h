@@ -24,6 +24,9 @@ class MeshTruth {
   // trained, before normalisation, which no file tells. Deterministic. Throws as certify().
   void certify(PhiBatch const& phi, Shape const& shape, int points, std::uint64_t seed, Certificate& certificate) const;
 
+  // What the normals' errors are made of.
+  NormalComparison compare_normals(PhiBatch const& phi, int points) const;
+
  private:
   TriangleMesh mesh_;
   std::shared_ptr<MeshDistance const> distance_;

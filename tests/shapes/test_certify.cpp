@@ -62,6 +62,60 @@ TEST(Certify, AConstantErrorIsItsOwnMeanAndMaximum) {
   EXPECT_EQ(c.volume_error, -1);
 }
 
+// A sphere's triangles deviate from the sphere's own normals by a circumradius over the radius at their corners;
+// normals interpolated over them are those of the sphere to second order of it.
+TEST(CompareNormals, ASphereAgreesWithInterpolatedNormalsAndNotWithTriangles) {
+  TriangleMesh const mesh = icosphere(3);  // 1,280 triangles
+  AnalyticSdf const sphere{AnalyticKind::sphere, {1, 1, 1}};
+  PhiBatch const phi = [&](Span<const Vec3> x, Span<double> value, Span<Vec3> gradient) {
+    for (int i = 0; i < x.size(); ++i)
+      value[i] = signed_distance(sphere, x[i], gradient.empty() ? nullptr : &gradient[i]);
+  };
+  MeshDistance const distance(mesh);
+  NormalComparison const n = compare_normals(phi, truth_of(mesh, distance_of(distance)), {}, 4000);
+  // About equilateral triangles of area A = 3 sqrt 3 / 4 R^2 with R their circumradius; half of A lies within
+  // sqrt(A / (2 pi)) of the centre, less than R / 2, the inradius. The triangles differ in size by a fifth.
+  double const area = 4 * std::numbers::pi / 1280, degree = std::numbers::pi / 180;
+  double const farthest = std::sqrt(4 * area / std::sqrt(27.0)) / degree;
+  EXPECT_NEAR(n.to_triangles.p50, std::sqrt(area / (2 * std::numbers::pi)) / degree, 0.2);
+  EXPECT_GT(n.to_triangles.p95, 0.7 * farthest);
+  EXPECT_LT(n.to_triangles.p95, 1.1 * farthest);
+  EXPECT_LT(n.to_interpolated.p95, 0.08 * n.to_triangles.p95);
+  EXPECT_NEAR(n.triangles_to_interpolated.p95, n.to_triangles.p95, 0.05 * n.to_triangles.p95);
+  EXPECT_EQ(n.flat_share, 1);
+  EXPECT_EQ(n.to_triangles.flat_p95, n.to_triangles.p95);
+}
+
+// A gradient turned by a known angle about the normal's own tangent is that far from every yardstick.
+TEST(CompareNormals, ATurnedGradientIsThatFarOff) {
+  TriangleMesh const mesh = icosphere(4);
+  double constexpr turn = 10 * std::numbers::pi / 180;
+  PhiBatch const phi = [&](Span<const Vec3> x, Span<double> value, Span<Vec3> gradient) {
+    for (int i = 0; i < x.size(); ++i) {
+      Vec3 const inward = -normalized(x[i]), tangent = normalized(cross(inward, Vec3{0.3, -0.5, 0.8}));
+      value[i] = 1 - norm(x[i]);
+      if (!gradient.empty()) gradient[i] = inward * std::cos(turn) + tangent * std::sin(turn);
+    }
+  };
+  MeshDistance const distance(mesh);
+  NormalComparison const n = compare_normals(phi, truth_of(mesh, distance_of(distance)), {}, 4000);
+  EXPECT_NEAR(n.to_interpolated.p50, 10, 0.1);
+  EXPECT_NEAR(n.to_interpolated.p95, 10, 0.3);
+  EXPECT_NEAR(n.to_triangles.p50, 10, 0.3);         // the triangles' own deviations, at most 2.5 degrees, to both sides
+  EXPECT_LT(n.triangles_to_interpolated.p95, 2.6);  // which the turn leaves alone
+}
+
+// Of a box the triangles are the surface, and interpolation rounds its edges off.
+TEST(CompareNormals, OfAPolyhedronTheTrianglesAreRight) {
+  TriangleMesh const mesh = box_mesh({0.4, 0.4, 0.4});
+  MeshDistance const distance(mesh);
+  PhiBatch const exact = distance_of(distance);
+  NormalComparison const n = compare_normals(exact, truth_of(mesh, exact), {}, 4000);
+  EXPECT_NEAR(n.to_triangles.p95, 0, 1e-6);
+  EXPECT_GT(n.to_interpolated.p50, 20);
+  EXPECT_NEAR(n.to_interpolated.p50, n.triangles_to_interpolated.p50, 1e-6);
+}
+
 TEST(Certify, NormalsAtEdgesAreLeftOutOfTheFlatOnes) {
   // The truth is a box; the shape turns its gradient by 90 degrees within 0.02 d of the edges and nowhere else.
   Vec3 const half{0.4, 0.4, 0.4};

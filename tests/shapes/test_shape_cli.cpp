@@ -113,6 +113,7 @@ TEST_F(ShapeProgram, InspectsAgainstAMeshAndDraws) {
   write_mesh(folder_ / "cobble.stl", mesh);
   ASSERT_EQ(run("inspect grains.h5 --shape cobble/2 --mesh cobble.stl --plot cobble.svg"), 0) << said_;
   EXPECT_TRUE(says("measured now against the mesh")) << said_;
+  EXPECT_TRUE(says("the triangles to the interpolated normals")) << said_;
   EXPECT_TRUE(says("cobble.svg: drawn") || says("no picture: Matplotlib was not found")) << said_;
   for (char const* part : {"slices", "outline", "samples"})
     EXPECT_GT(fs::file_size(folder_ / ("cobble-" + std::string(part) + ".csv")), 1000u) << part;
