@@ -1,4 +1,4 @@
-// scree.cpp: the engine's program: run, plan, check, info, render, export, envelopes.
+// scree.cpp: the engine's program: run, plan, check, info, render, export, envelopes, validate.
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
@@ -169,6 +169,17 @@ void add_envelopes(CLI::App& app, EnvelopesArguments& a, std::function<int()>& c
   c->callback([&] { chosen = [&] { return envelopes_command(a); }; });
 }
 
+void add_validate(CLI::App& app, ValidateArguments& a, std::function<int()>& chosen) {
+  CLI::App* const c = app.add_subcommand(
+      "validate", "Run the validation book: known solutions and hard cases, measured against expected");
+  c->add_option("names", a.names, "Entries by number (7a), part (validation, hard) or a piece of the name; none: all");
+  c->add_flag("--full", a.full, "Long variants of the entries, too: hours");
+  c->add_flag("--list", a.list, "Names of the entries");
+  c->add_option("-o,--output", a.output, "Folder for tables, curves and plots")->capture_default_str();
+  c->add_option("--threads", a.threads, "Entries at once (default: all cores)")->check(CLI::Range(1, 4096));
+  c->callback([&] { chosen = [&] { return validate_command(a); }; });
+}
+
 int complain(ExitCode code, std::string const& what) {
   std::fflush(stdout);
   fmt::print(stderr, "scree: error: {}\n", what);
@@ -216,6 +227,7 @@ int main(int argc, char** argv) {
   ReportArguments report;
   ExportArguments exported;
   EnvelopesArguments envelopes;
+  ValidateArguments validate;
   add_run(app, run, chosen);
   add_plan(app, plan, chosen);
   add_check(app, check, chosen);
@@ -224,6 +236,7 @@ int main(int argc, char** argv) {
   add_report(app, report, chosen);
   add_export(app, exported, chosen);
   add_envelopes(app, envelopes, chosen);
+  add_validate(app, validate, chosen);
   try {
     app.parse(argc, argv);
   } catch (CLI::ParseError const& error) {

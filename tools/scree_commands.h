@@ -13,7 +13,8 @@ namespace scree {
 
 enum ExitCode : int {
   exit_ok = 0,
-  exit_watch = 1,         // a physics watch stopped the run, the state is written; or figures are not the expected
+  exit_watch =
+      1,  // a physics watch stopped the run, the state is written; or figures are not the expected, or the book failed
   exit_bad_input = 2,     // case, model, results file or usage
   exit_device = 3,        // the device asked for is not there
   exit_file = 4,          // a file or folder cannot be written or is in use
@@ -87,6 +88,14 @@ struct ReportArguments {
   bool recover = false;
 };
 
+struct ValidateArguments {
+  std::vector<std::string> names;  // of entries, see tools/book_process.h; empty: all
+  std::filesystem::path output = "validation.out";
+  bool full = false;  // long variants, too
+  bool list = false;  // print names only
+  int threads = 0;    // entries at once; 0: all cores
+};
+
 int run_command(RunArguments const& arguments);
 int plan_command(CaseArguments const& arguments);
 int check_command(CaseArguments const& arguments);
@@ -95,6 +104,7 @@ int render_command(RenderArguments const& arguments);
 int report_command(ReportArguments const& arguments);
 int export_command(ExportArguments const& arguments);
 int envelopes_command(EnvelopesArguments const& arguments);
+int validate_command(ValidateArguments const& arguments);
 int export_surfaces(ExportArguments const& arguments);  // where arguments.surfaces is set
 
 // Threads to use: all cores unless the user says otherwise.

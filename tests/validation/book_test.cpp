@@ -6,6 +6,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
+#include <map>
+#include <string>
 
 namespace scree::book {
 namespace {
@@ -29,7 +32,24 @@ TEST(Book, BoundsPassAndFailWhereTheyMust) {
 void entry_that_fails() { Entry("hard", "x", "t", "s").at_most("energy", "J", 2, 1); }
 void entry_without_rows() { Entry("hard", "x", "t", "s"); }
 
+// Without the files of the book, where these rows do not belong.
+class WithoutFiles {
+ public:
+  WithoutFiles() {
+    for (char const* variable : variables)
+      if (char const* file = std::getenv(variable)) saved_[variable] = file, ::unsetenv(variable);
+  }
+  ~WithoutFiles() {
+    for (auto const& [variable, file] : saved_) ::setenv(variable.c_str(), file.c_str(), 1);
+  }
+
+ private:
+  static constexpr char const* variables[] = {"SCREE_BOOK_CSV", "SCREE_BOOK_CURVES"};
+  std::map<std::string, std::string> saved_;
+};
+
 TEST(Book, RowsThatDoNotPassFailTheTest) {
+  WithoutFiles const none;
   EXPECT_NONFATAL_FAILURE(entry_that_fails(), "energy is 2 J");
   EXPECT_NONFATAL_FAILURE(entry_without_rows(), "measured nothing");
 }
