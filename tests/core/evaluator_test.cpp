@@ -1,4 +1,4 @@
-// evaluator_test.cpp: the same grains as net, grid, mesh and formula: energy, contact sets, threads, heights, refusals.
+// evaluator_test.cpp: the same grains as net, grid, mesh and formula: contact sets, threads, heights, refusals.
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -9,7 +9,6 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
-#include <random>
 
 #include "core/simulation_impl.h"
 #include "shapes/mesh_files.h"
@@ -70,55 +69,6 @@ class Evaluators : public ::testing::Test {
   static fs::path* folder;
 };
 fs::path* Evaluators::folder = nullptr;
-
-struct Encounter {
-  char const* kind;
-  Evaluator evaluator;
-};
-
-// Two undamped, frictionless grains meet: nothing but the time step takes energy from an exact gradient.
-TEST_F(Evaluators, CollisionsConserveMomentaAndEnergy) {
-  std::mt19937 random(3);
-  std::uniform_real_distribution<double> u(-1, 1);
-  for (Encounter const& e :
-       {Encounter{"coded_net", Evaluator::net}, Encounter{"coded_net", Evaluator::grid},
-        Encounter{"coded_net", Evaluator::mesh}, Encounter{"single_net", Evaluator::net},
-        Encounter{"harmonics", Evaluator::analytic}, Encounter{"harmonics", Evaluator::grid},
-        Encounter{"mesh", Evaluator::net}, Encounter{"grid", Evaluator::net}, Encounter{"sphere", Evaluator::mesh},
-        Encounter{"ellipsoid", Evaluator::grid}, Encounter{"box", Evaluator::mesh}}) {
-    Case c = rock_case();
-    GrainsCase a = evaluated(grains_at(word(e.kind, c), {{-0.1, 0.01 * u(random), 0.01 * u(random)}}), e.evaluator);
-    GrainsCase b = evaluated(grains_at(a.shapes[0], {{0.1, 0, 0}}), e.evaluator);
-    for (GrainsCase* g : {&a, &b})
-      g->insert.quaternion = {normalized(Quat{u(random), u(random), u(random), u(random)})};
-    b.name = "other";
-    a.insert.velocity = {1, 0, 0};
-    b.insert.velocity = {-1, 0.1, 0};
-    c.grains = {a, b};
-    c.time.end = 0.25;
-    // Flat faces and edges let many nodes in within one step: the error falls with the step, 3.5e-3 at the automatic
-    // one and 6e-4 at a sixth of it.
-    bool const sharp = std::string(e.kind) == "box" || std::string(e.kind) == "mesh";
-    if (sharp) c.time.safety = 0.05;
-    Simulation s(c, {});
-    double const before = s.impl().report.kinetic_total;
-    Vec3 const p0 = s.impl().state.velocity[0] + s.impl().state.velocity[1];
-    double overlap = 0;
-    while (s.step() == RunState::running) {
-      overlap = std::max(overlap, s.largest_overlap());
-      if (overlap > 0 && s.largest_overlap() == 0 && norm(s.frame().position[0] - s.frame().position[1]) > 0.16) break;
-    }
-    std::string const what = std::string(e.kind) + " " + std::to_string(static_cast<int>(e.evaluator));
-    double const lost = std::abs(s.impl().report.kinetic_total / before - 1);
-    EXPECT_EQ(s.largest_overlap(), 0) << what;
-    EXPECT_GT(overlap, 1e-3) << what;
-    EXPECT_LT(norm(s.impl().state.velocity[0] + s.impl().state.velocity[1] - p0), 1e-10) << what;
-    // collision_test.cpp asks 1e-4 of ellipsoids and 3e-4 of networks.
-    EXPECT_LT(lost, sharp ? 1e-3 : 3e-4) << what;
-    printf("%-14s evaluator %d: kinetic energy to %.1e, overlap %.3f d\n", e.kind, static_cast<int>(e.evaluator), lost,
-           overlap);
-  }
-}
 
 // All evaluators in one heap, against every node at every step; one and two threads.
 TEST_F(Evaluators, NodeListsOfAMixtureGiveTheContactSetsOfBruteForceForAnyThreads) {

@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "core/certificate_gate.h"
+#include "core/simulation.h"
+#include "tests/support/cases.h"
 
 namespace scree {
 namespace {
@@ -130,6 +132,21 @@ falling = 0.125
     EXPECT_TRUE(contains(e.problems[0], "limits.gap")) << e.problems[0];
   }
   std::filesystem::remove(file);
+}
+
+TEST(Gate, ACaseWithTighterLimitsRefusesAShippedGrainByName) {
+  Case c = testing::rock_case();
+  c.library = {{"grains", std::filesystem::path(SCREE_SOURCE_DIR) / "shapes/library/grains.h5"}};
+  c.grains = {testing::grains_at("grains:ballast/0", {{0, 0, 0}})};
+  c.limits.gradient_low = 0.95;
+  try {
+    Simulation(c, {});
+    FAIL() << "ballast's |grad phi| of about 0.8 at its edges passed a limit of 0.95";
+  } catch (InputError const& e) {
+    ASSERT_EQ(e.problems.size(), 1u);
+    EXPECT_TRUE(contains(e.problems[0], "ballast/0")) << e.problems[0];
+    EXPECT_TRUE(contains(e.problems[0], "limits.gradient")) << e.problems[0];
+  }
 }
 
 }  // namespace
