@@ -11,6 +11,7 @@
 #include "core/measure_region.h"
 #include "core/measure_surface.h"
 #include "core/measure_walls.h"
+#include "core/measure_worlds.h"
 
 namespace scree {
 namespace {
@@ -82,6 +83,7 @@ std::vector<Quantity> surface_quantities(MeasureView const&) {
 }
 
 std::string check_surface(Case const& c, MeasureCase const& m) {
+  if (std::string const wrong = check_one_scene(c, m); !wrong.empty()) return wrong;
   if (std::string const wrong = check_axis(c, m); !wrong.empty()) return wrong;
   if (norm(cross(normalized(axis_of(c, m)), up_of(c))) < 1e-6) return "the axis is vertical: such a drum has no slope";
   return "";

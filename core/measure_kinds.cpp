@@ -12,20 +12,32 @@
 #include "core/measure_packing.h"
 #include "core/measure_stress.h"
 #include "core/measure_walls.h"
+#include "core/measure_worlds.h"
 
 namespace scree {
 
 std::vector<MeasureKind> const& measure_kinds() {
   // name, keys it needs, keys it may have, needs a region, quantities, sample, after every step, interval, check
   static std::vector<MeasureKind> const table{
-      {"packing_fraction", {}, {"box", "cylinder", "slices", "points"}, true, packing_quantities, sample_packing},
+      {"packing_fraction",
+       {},
+       {"box", "cylinder", "slices", "points"},
+       true,
+       packing_quantities,
+       sample_packing,
+       nullptr,
+       false,
+       check_mean_of_replicas},
       {"coordination", {}, {"box", "cylinder"}, false, coordination_quantities, sample_coordination},
       {"pile_angle",
        {},
        {"box", "cylinder", "through", "direction", "bin", "flank"},
        false,
        pile_quantities,
-       sample_pile},
+       sample_pile,
+       nullptr,
+       false,
+       check_one_scene},
       {"surface_angle",
        {},
        {"wall", "axis", "through", "radius", "bin"},
@@ -60,8 +72,10 @@ std::vector<MeasureKind> const& measure_kinds() {
        false,
        blockage_quantities,
        sample_blockage,
-       visit_blockage},
-      {"stress", {}, {"box", "cylinder"}, true, stress_quantities, sample_stress},
+       visit_blockage,
+       false,
+       check_one_scene},
+      {"stress", {}, {"box", "cylinder"}, true, stress_quantities, sample_stress, nullptr, false, check_one_scene},
       {"force_chains", {}, {"box", "cylinder", "above", "contacts"}, false, chain_quantities, sample_chains},
       {"trajectory", {"grains"}, {"index"}, false, trajectory_quantities, sample_trajectory},
       {"velocity", {}, {"grains", "box", "cylinder"}, false, velocity_quantities, sample_velocity},

@@ -103,8 +103,9 @@ Values sample_packing(MeasureView const& view, Memory&) {
   }
   double volume = 0, variance = 0;
   for (int s = 0; s < slices; ++s) volume += filled.volume[s], variance += filled.variance[s];
-  Values out{volume / region.volume(), std::sqrt(variance) / region.volume()};
-  for (int s = 0; s < view.measure.slices; ++s) out.push_back(filled.volume[s] * slices / region.volume());
+  double const place = region.volume() * view.c.replicas;  // every replica has the region to itself
+  Values out{volume / place, std::sqrt(variance) / place};
+  for (int s = 0; s < view.measure.slices; ++s) out.push_back(filled.volume[s] * slices / place);
   return out;
 }
 

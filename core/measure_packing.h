@@ -9,7 +9,7 @@ namespace scree {
 // Grains that are wholly inside count with their exact volume pi d^3/6; a grain that the region's border cuts with the
 // share of a fixed quasi-random point set (Halton, `points` inside its shape) that lies in the region. `error`:
 // standard error if the points were random, sqrt(p (1 - p) / n) of each cut grain; the set does better. Overlaps count
-// twice.
+// twice. Of several replicas the mean.
 std::vector<Quantity> packing_quantities(MeasureView const& view);
 Values sample_packing(MeasureView const& view, Memory& memory);
 

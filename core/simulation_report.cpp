@@ -84,7 +84,7 @@ std::vector<Plan::Array> arrays_of(Simulation::Impl const& s) {
 
 // Seeds under which single runs repeat the replicas; of many only the first few.
 std::string replica_note(Case const& c) {
-  int constexpr named = 4;
+  int constexpr named = 16;
   std::string seeds;
   for (int r = 0; r < std::min(named, c.replicas); ++r)
     seeds += fmt::format("{}{}", r > 0 ? ", " : "", replica_seed(c.seed, r));
