@@ -32,8 +32,12 @@ Effects effects_of(Case const& c, Scene const& scene) {
   e.cohesion = scene.cohesion_reach > 0;
   e.damping = any_contact([](ContactParameters const& p) { return p.damping_nodes > 0; });
   e.gravity = c.gravity && norm2(*c.gravity) > 0;
-  e.force = std::any_of(c.force.begin(), c.force.end(),
-                        [](ForceCase const& f) { return norm2(f.force) > 0 || norm2(f.torque) > 0; });
+  e.force = std::any_of(c.force.begin(), c.force.end(), [](ForceCase const& f) {
+    auto const& factor = f.table.value;
+    bool const scaled =
+        f.table.empty() || std::any_of(factor.begin(), factor.end(), [](double value) { return value != 0; });
+    return scaled && (norm2(f.force) > 0 || norm2(f.torque) > 0);
+  });
   e.drag = c.drag && c.drag->density * c.drag->coefficient > 0;
   e.global_damping = c.damping && c.damping->rate > 0;
   e.insertion = std::any_of(c.grains.begin(), c.grains.end(),

@@ -40,7 +40,7 @@ double speed2_of_forces(Case const& c, Scene const& scene, Placement const& plac
   double speed2 = 0;
   for (ForceCase const& f : c.force) {
     if (!(norm2(f.force) > 0)) continue;
-    double strongest = 1;
+    double strongest = f.table.empty() ? 1 : 0;
     for (double const factor : f.table.value) strongest = std::max(strongest, std::abs(factor));
     double lightest = std::numeric_limits<double>::infinity();
     for (int i = 0; i < scene.bodies(); ++i)
@@ -105,7 +105,7 @@ StepEstimate estimate_critical_step(Case const& c, Scene const& scene, Placement
     double const r = scene.shape[scene.shape_of[i]].bounding_radius * scene.diameter[i];
     fastest = std::max(fastest, norm(placement.velocity[i]) + r * norm(placement.spin[i]));
   }
-  if (c.drag) fastest += norm(c.drag->fluid_velocity);
+  if (c.drag && c.drag->density * c.drag->coefficient > 0) fastest += norm(c.drag->fluid_velocity);
   // Two grains may meet head-on, or a wall comes towards one.
   double driven = 0;
   for (WallBody const& wall : scene.wall)

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 #include "shapes/mesh_files.h"
@@ -33,6 +34,14 @@ Quat towards(Vec3 axis) {
   return quat_from_rotation_vector(turn * (angle / sine));
 }
 
+// Whether it ever has a rate or a velocity. A wall that has none is at rest.
+bool moves(MotionCase const& m) {
+  auto const fast = [](Vec3 v) { return norm2(v) > 0; };
+  if (m.kind == MotionKind::translation)
+    return m.time.empty() ? fast(m.velocity) : std::any_of(m.velocities.begin(), m.velocities.end(), fast);
+  return m.time.empty() ? m.rate != 0 : std::any_of(m.rates.begin(), m.rates.end(), [](double r) { return r != 0; });
+}
+
 struct Builder {
   Case const& c;
   Scene& scene;
@@ -42,10 +51,14 @@ struct Builder {
   int index = 0;       // of the wall
 
   WallCase const& wall() const { return c.wall[index]; }
+  // A motion of no rate is none: the wall is built as one at rest.
+  std::optional<MotionCase> motion() const {
+    return wall().motion && moves(*wall().motion) ? wall().motion : std::nullopt;
+  }
 
   WallSolid& add(Vec3 position, Quat orientation, AnalyticSdf const& shape, bool bounded) {
     WallSolid s;
-    s.body = {index, position, orientation, wall().motion};
+    s.body = {index, position, orientation, motion()};
     s.record.analytic = shape;
     s.record.bounding_radius = infinity;
     s.record.box = {{-endless, -endless, -endless}, {endless, endless, endless}};
@@ -65,7 +78,7 @@ struct Builder {
 
   // A half space: a plane record where it rests, a body where it moves.
   void add_plane(Vec3 point, Vec3 normal, double reach) {
-    if (!wall().motion) {
+    if (!motion()) {
       scene.plane.push_back({point, normalized(normal), material_index(c, wall().material), index});
       return;
     }
@@ -95,7 +108,7 @@ struct Builder {
         Vec3 normal;
         normal[axis] = side ? -1 : 1;
         Vec3 point = (low + high) * 0.5;
-        if (wall().motion)
+        if (motion())
           point[axis] = side ? high[axis] : low[axis];
         else
           point = side ? high : low;
@@ -191,7 +204,7 @@ struct Builder {
     Vec3 const centre = (box.min + box.max) * 0.5, half = (box.max - box.min) * 0.5;
     for (Vec3& v : mesh.vertex) v -= centre;
     WallSolid s;
-    s.body = {index, centre, {}, w.motion, norm(half) + w.thickness / 2};
+    s.body = {index, centre, {}, motion(), norm(half) + w.thickness / 2};
     s.record.sdf = SdfKind::mesh;
     s.record.half_wall = w.thickness / 2;
     bool const bounded = sheet || (!terrain && !w.inside);

@@ -194,47 +194,5 @@ TEST(EffectPlan, EachEffectIsOneStageOneColumnAndItsArrays) {
             (std::vector<std::string>{"gravity", "force", "drag", "global damping", "friction"}));
 }
 
-// Launches by name and number, arrays and bytes, poses and ledger: all of the plain scene.
-void expect_same_run(Case const& plain, Case const& keyed) {
-  Simulation a(plain, {}), b(keyed, {});
-  run(a), run(b);
-  EXPECT_EQ(a.plan().stages, b.plan().stages);
-  EXPECT_EQ(a.plan().effects, b.plan().effects);
-  ASSERT_EQ(a.plan().arrays.size(), b.plan().arrays.size());
-  for (std::size_t i = 0; i < a.plan().arrays.size(); ++i) {
-    EXPECT_EQ(a.plan().arrays[i].name, b.plan().arrays[i].name);
-    EXPECT_EQ(a.plan().arrays[i].bytes, b.plan().arrays[i].bytes);
-  }
-  auto const pa = a.profile().entries(), pb = b.profile().entries();
-  ASSERT_EQ(pa.size(), pb.size());
-  for (std::size_t i = 0; i < pa.size(); ++i) {
-    EXPECT_EQ(pa[i].name, pb[i].name);
-    EXPECT_EQ(pa[i].calls, pb[i].calls) << pa[i].name;
-  }
-  EXPECT_EQ(a.frame().position, b.frame().position);
-  EXPECT_EQ(a.frame().spin, b.frame().spin);
-  EXPECT_EQ(a.ledger().residual, b.ledger().residual);
-  EXPECT_EQ(a.results_header().ledger, b.results_header().ledger);
-}
-
-TEST(EffectPlan, ZeroStrengthIsThePlainScene) {
-  Case const plain = bouncing();
-  Case keyed = plain;
-  keyed.drag = DragCase{1.2, 0, {5, 0, 0}};
-  keyed.damping = DampingCase{0};
-  keyed.force = {{"push", "grain", {}, {}, 0, {}, {}}};
-  keyed.drag->fluid_velocity = {};
-  expect_same_run(plain, keyed);
-  Case resting = plain, undamped = plain;
-  resting.time.settle = SettleCase{5, 0, 1e-8, 0.2};
-  undamped.time.settle = SettleCase{0, 0, 1e-8, 0.2};
-  EXPECT_EQ(Simulation(resting, {}).plan().stages, with_stages({"global_damping"}));
-  EXPECT_EQ(Simulation(undamped, {}).plan().stages, with_stages({}));
-  Case weightless = plain, zero_gravity = plain;
-  weightless.gravity.reset();
-  zero_gravity.gravity = Vec3{};
-  expect_same_run(weightless, zero_gravity);
-}
-
 }  // namespace
 }  // namespace scree

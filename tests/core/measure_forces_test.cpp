@@ -103,7 +103,7 @@ TEST(ForceChains, ContactsAreWrittenWithTheirPlaceAndForce) {
     WallCase other = floor_at(-3);
     other.name = "other";
     c.wall = {other, floor_at(0)};
-    if (body) c.wall[1].motion.emplace().kind = MotionKind::translation;  // at 0 m/s
+    if (body) c.wall[1].motion = later();
     MeasureCase m = measure("chains", "force_chains");
     m.contacts = true;
     c.measure = {m};

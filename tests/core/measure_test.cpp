@@ -194,7 +194,7 @@ TEST(WallTorque, ByHandOnAPlaneAndOnABody) {
     c.contact[0].kappa = kappa;
     c.grains = {grains_at("sphere", {{arm, 0.2, 0.05 - overlap}})};
     c.wall = {floor_at(0)};
-    if (moving) c.wall[0].motion.emplace().kind = MotionKind::translation;  // at 0 m/s
+    if (moving) c.wall[0].motion = later();
     MeasureCase torque = measure("turn", "wall_torque"), push = measure("push", "wall_force");
     torque.wall = push.wall = "floor";
     torque.axis = Vec3{0, 2, 0};

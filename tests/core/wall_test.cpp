@@ -204,8 +204,9 @@ TEST(SphereOnWall, IgnoresNodesWhereNoneAreNeeded) {
   EXPECT_EQ(Simulation(c, {}).plan().stages.front(), "wall_motion");
 }
 
-// Zero motion is the wall at rest, to the bit, whatever stage moves it.
-TEST(WallMotion, OfNoRateChangesNothing) {
+// A wall that is told to move and does not, since its time has not come, is the wall at rest to the bit, whatever stage
+// would move it.
+TEST(WallMotion, BeforeItsStartChangesNothing) {
   Case c = rock_case();
   c.gravity = Vec3{0, 0, -9.81};
   c.contact[0].friction = 0.5;
@@ -217,12 +218,15 @@ TEST(WallMotion, OfNoRateChangesNothing) {
     c.wall = {bore, floor_at(0)};
     c.wall[0].open = {"from", "to"};
     c.wall[0].motion = motion;
+    c.time.step = 5e-5;  // "auto" would get ready for the motion
     Simulation s(c, {});
     while (s.step() == RunState::running) {
     }
     return s.frame().position;
   };
-  EXPECT_EQ(last({}), last(turning({0, 0, 1}, 0)));
+  MotionCase later = turning({0, 0, 1}, 1);
+  later.start = 1;
+  EXPECT_EQ(last({}), last(later));
 }
 
 // A block on a belt that starts at speed V: it slides for V / (mu g); the belt does m V^2, half of it is lost.

@@ -17,6 +17,15 @@ inline MeasureCase measure(std::string const& name, std::string const& kind) {
   return m;
 }
 
+// A motion that begins after the tests: it makes a body of a wall that stands still.
+inline MotionCase later() {
+  MotionCase m;
+  m.kind = MotionKind::translation;
+  m.velocity = {1, 0, 0};
+  m.start = 1e6;
+  return m;
+}
+
 using Measured = std::map<std::string, MeasureSummary>;  // by "measure.quantity"
 
 inline Measured measured(Simulation const& s) {
