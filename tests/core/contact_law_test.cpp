@@ -145,6 +145,74 @@ TEST_P(Law, ARatioReboundsAlikeOnBothPaths) {
   }
 }
 
+// Speed of separation over that of approach of a cube that falls flat on a plane, or on the face of a larger block.
+double flat_rebound(Case c, bool on_block, double speed) {
+  double const half = 0.5 * std::cbrt(pi / 6);  // of a cube [d]
+  GrainsCase cube = grains_at("box:1:1:1", {{0, 0, half * d + 1e-5}}), block = grains_at("box:1:1:1", {}, 2 * d);
+  block.name = "block";
+  block.count = 1;
+  block.insert.position = {{0, 0, -half * 2 * d}};
+  cube.insert.velocity = {0, 0, -speed};
+  c.grains = {cube};
+  if (on_block)
+    c.grains.push_back(block);
+  else
+    c.wall = {floor_at(0)};
+  c.time.end = 0.1;
+  c.time.safety = 0.1;
+  Simulation s(c, {});
+  bool touched = false;
+  while (s.step() == RunState::running) {
+    touched = touched || s.largest_overlap() > 0;
+    if (touched && s.largest_overlap() == 0) break;
+  }
+  Frame const f = s.frame();
+  return (f.velocity[0].z - (on_block ? f.velocity[1].z : 0)) / speed;
+}
+
+// The same as one equation, in units where the mass, the speed and the force c A beyond the onset are 1: F = p(x), with
+// the damping 2 zeta sqrt(K) v, K = F p(2 x) / psi(2 x), that the linear law's contacts have; pushing only.
+double flat_rebound_by_formula(double zeta, double onset) {
+  PressureLaw const law{ContactLaw::linear, 1, onset, 0};
+  auto const acceleration = [&](double x, double v) {
+    if (!(x > 0)) return 0.0;
+    double const force = law.pressure(x), stiffness = force * law.pressure(2 * x) / law.energy(2 * x);
+    return -std::max(0.0, force + 2 * zeta * std::sqrt(stiffness) * v);
+  };
+  double x = 1e-9, v = 1, dt = 1e-4;
+  while (x > 0 || v > 0) {
+    double const k1 = acceleration(x, v), k2 = acceleration(x + dt / 2 * v, v + dt / 2 * k1);
+    double const k3 = acceleration(x + dt / 2 * (v + dt / 2 * k1), v + dt / 2 * k2);
+    double const k4 = acceleration(x + dt * (v + dt / 2 * k2), v + dt * k3);
+    x += dt * (v + dt * (k1 + k2 + k3) / 6);
+    v += dt * (k1 + 2 * k2 + 2 * k3 + k4) / 6;
+  }
+  return -v;
+}
+
+// Flat faces carry c A x/onset up to the onset and c A from there on. With K = F/x and F/(2x) both are, in the variable
+// x or sqrt(x), the damped oscillator of the smooth contact (Tsuji, Tanaka, Ishida, Powder Technol. 71 (1992) 239), so
+// that e is the same below the onset (stiff: x = 0.2 onsets) and far beyond it (soft: 8 and 34); in between the rise of
+// p leaves it up to 0.04 high. Nodes against the equation: 0.01; a step is about 2 % of the time in contact.
+TEST(LinearLaw, FlatFacesReboundAsTheRatioSays) {
+  for (double zeta : {0.1, 0.4, 0.7})
+    for (auto const& [stiffness, speed] : {std::pair{2e6, 0.5}, {2e4, 1.0}, {2e4, 2.0}})
+      for (bool on_block : {false, true}) {
+        Case c = rock_case();
+        c.contact[0].law = ContactLaw::linear;
+        c.contact[0].stiffness = stiffness;
+        c.contact[0].damping_ratio = zeta;
+        double const largest = on_block ? 2 * d : d, face = std::pow(pi / 6, 2.0 / 3) * d * d;
+        double const mass = on_block ? ball_mass * 8 / 9 : ball_mass;  // the block has 8 times the cube's
+        double const onset = 1e-3 * largest * linear_modulus(stiffness, largest) * face / (mass * speed * speed);
+        double const e = flat_rebound(c, on_block, speed);
+        SCOPED_TRACE(std::to_string(zeta) + ", " + std::to_string(stiffness) + " N/m at " + std::to_string(speed) +
+                     " m/s" + (on_block ? " on a block" : " on a plane"));
+        EXPECT_NEAR(e, flat_rebound_by_formula(zeta, onset), 0.01);
+        EXPECT_NEAR(e, restitution_of(zeta, DampingPath::nodes, ContactLaw::linear), 0.04);
+      }
+}
+
 // A grain that bounces, slides and comes to rest under friction: the ledger closes, so no law's tangential springs make
 // energy, and friction loses some.
 TEST_P(Law, FrictionClosesTheLedgerOnBothPaths) {
