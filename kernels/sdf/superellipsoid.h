@@ -1,13 +1,13 @@
 // superellipsoid.h: true distance to a superellipsoid (exponents 0.1..1.9, convex), in double.
-// Newton on the surface: tangent-plane steps with the shape operator from differences of the normal, retracted by the
-// gauge. Works at sharp edges (small exponents) and pointed tips (large ones), where textbook parametrisations stall.
-// phi to 1e-8 of the size; the gradient to 1e-5, but only 1e-2 near the ridges of exponents above 1.5. Known gap: of
-// exponent 1.8 some 6 % of the points outside slender bodies get a distance too long by up to 3e-3 of the longest
-// semi-axis, where Newton stops beside a ridge; none of exponent 1.4 or less.
+// Outside, the nearest point comes from superellipsoid_foot.h. Inside, Newton on the surface: tangent-plane steps with
+// the shape operator from differences of the normal, retracted by the gauge; works at sharp edges (small exponents) and
+// pointed tips (large ones), where textbook parametrisations stall. phi to 1e-8 of the size; the gradient to 1e-5, but
+// inside only to 1e-2 near the ridges of exponents above 1.5.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "kernels/base/vec.h"
+#include "kernels/sdf/superellipsoid_foot.h"
 
 namespace scree::detail {
 
@@ -111,9 +111,11 @@ SCREE_HD inline double superellipsoid_distance(Vec3 a, double ns, double ew, Vec
   Vec3 y{std::fabs(x.x), std::fabs(x.y), std::fabs(x.z)};
   // Off the symmetry planes by 1e-12: pow(0, small) and the normal of a ridge are not defined on them.
   for (int i = 0; i < 3; ++i) y[i] = y[i] > 1e-12 * a[i] ? y[i] : 1e-12 * a[i];
-  Vec3 s = superellipsoid_descend(shape, y, superellipsoid_start(shape, y));
-  if (shape.gauge(y) < 1) {
-    // Inside, every face holds a minimum of its own: also descend from where the three axis directions leave the body.
+  bool const inside = shape.gauge(y) < 1;
+  Vec3 s = inside ? superellipsoid_descend(shape, y, superellipsoid_start(shape, y))
+                  : shape.onto_surface(superellipsoid_foot(a, shape.p, shape.q, y));
+  if (inside) {
+    // Every face holds a minimum of its own: also descend from where the three axis directions leave the body.
     for (int k = 0; k < 3; ++k) {
       double low = 0, high = a[k];  // bisection on coordinate k
       Vec3 hit = y;

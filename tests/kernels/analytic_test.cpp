@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 
 namespace scree {
@@ -98,6 +99,45 @@ INSTANTIATE_TEST_SUITE_P(
                       Named{"superellipsoid_0_2", {AnalyticKind::superellipsoid, {0.6, 0.4, 0.3}, 0.2, 0.2}, 5e-2},
                       Named{"superellipsoid_1_8", {AnalyticKind::superellipsoid, {0.6, 0.4, 0.3}, 1.8, 1.8}, 1e-4}),
     [](auto const& info) { return info.param.name; });
+
+// Outside a convex body n . x - h(n) is a lower bound of the distance for every unit n, and equals it for n along the
+// line to the nearest point alone: what the distance exceeds the bound at its own gradient by is its error. 1e-11 of
+// |x|: rounding of far points and of exponent 0.1, where coordinates are raised to the power of 20.
+TEST(Superellipsoid, DistancesOutsideMeetTheirLowerBound) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> u(-1, 1);
+  Vec3 const slender{1, 0.16, 0.06}, plate{0.1, 0.7, 0.9}, needle{0.06, 0.06, 1}, block{0.6, 0.4, 0.3};
+  double constexpr exponents[] = {0.1, 0.4, 1, 1.4, 1.8, 1.9};
+  int outside = 0;
+  for (Vec3 const& half_size : {slender, plate, needle, block})
+    for (double ns : exponents)
+      for (double ew : exponents) {
+        AnalyticSdf const shape{AnalyticKind::superellipsoid, half_size, ns, ew};
+        for (double reach : {1.05, 1e4})
+          for (int i = 0; i < 30; ++i) {
+            Vec3 x{u(random) * reach, u(random) * reach, u(random) * reach};
+            if (i % 5 == 0) x[i / 5 % 3] = 0;  // the planes in which ridges lie
+            Vec3 gradient;
+            double const distance = -signed_distance(shape, x, &gradient);
+            if (distance <= 0) continue;
+            ++outside;
+            double const bound = dot(-gradient, x) - support(shape, -gradient, nullptr);
+            EXPECT_NEAR(distance, bound, 1e-11 * std::max(1.0, norm(x)))
+                << "semi-axes " << half_size.x << " " << half_size.y << " " << half_size.z << ", exponents " << ns
+                << " " << ew << ", at " << x.x << " " << x.y << " " << x.z;
+          }
+      }
+  EXPECT_GT(outside, 7000);
+}
+
+// On the way out of a tip and of a ridge phi falls by exactly the way: the foot stays where it is.
+TEST(Superellipsoid, RidgesAndTipsKeepTheirFoot) {
+  AnalyticSdf const shape{AnalyticKind::superellipsoid, {1, 0.3, 0.2}, 1.8, 1.8};
+  for (double way : {1e-9, 1e-4, 0.1, 10.0}) {
+    EXPECT_NEAR(signed_distance(shape, {1 + way, 0, 0}, nullptr), -way, 1e-11 * (1 + way));
+    EXPECT_NEAR(signed_distance(shape, {0, 0, -0.2 - way}, nullptr), -way, 1e-11 * (1 + way));
+  }
+}
 
 TEST(Analytic, SphereAndEllipsoidOfEqualAxesAgree) {
   AnalyticSdf const sphere{AnalyticKind::sphere, {0.4, 0.4, 0.4}}, ellipsoid{AnalyticKind::ellipsoid, {0.4, 0.4, 0.4}};
