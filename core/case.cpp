@@ -235,6 +235,13 @@ void read_checkpoint(CaseReader r, CheckpointCase& out) {
   r.finish();
 }
 
+void read_relax(CaseReader r, RelaxCase& out) {
+  r.number("overlap", out.overlap);
+  r.number("travel", out.travel);
+  r.integer("passes", out.passes);
+  r.finish();
+}
+
 void read_limits(CaseReader r, LimitsCase& out) {
   r.number("overlap", out.overlap);
   r.interval("gradient", out.gradient_low, out.gradient_high);
@@ -273,7 +280,7 @@ void read_case(CaseReader root, Case& out) {
   if (auto output = root.table("output")) read_output(*output, out.output);
   if (auto checkpoint = root.table("checkpoint")) read_checkpoint(*checkpoint, out.checkpoint.emplace());
   if (auto limits = root.table("limits")) read_limits(*limits, out.limits);
-  root.unsupported({"relax"});
+  if (auto relax = root.table("relax")) read_relax(*relax, out.relax.emplace());
   root.finish();
 }
 

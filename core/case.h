@@ -176,6 +176,13 @@ struct WallCase {
   std::optional<MotionCase> motion;
 };
 
+// Starting overlaps are pushed apart before the run (core/relax.h).
+struct RelaxCase {
+  double overlap = 1e-3;  // until no contact is deeper [d]
+  double travel = 0.02;   // furthest way of a point in one pass [d]
+  int passes = 5000;      // more: refused
+};
+
 struct OutputCase {
   double every = 0.02;  // [s]
   bool paraview = false;
@@ -220,6 +227,7 @@ struct Case {
   std::vector<MeasureCase> measure;
   OutputCase output;
   std::optional<CheckpointCase> checkpoint;
+  std::optional<RelaxCase> relax;  // absent: grains start where they are put
   LimitsCase limits;
 };
 

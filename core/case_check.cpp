@@ -347,6 +347,11 @@ void Checker::rest() {
     positive("checkpoint.every", c_.checkpoint->every, "seconds between checkpoints");
     range("checkpoint.keep", c_.checkpoint->keep, 1, true, 1000, "checkpoints kept");
   }
+  if (c_.relax) {
+    range("relax.overlap", c_.relax->overlap, 0, false, 0.5, "d; relaxing ends when no contact is deeper");
+    range("relax.travel", c_.relax->travel, 0, false, 0.1, "d that a point may move in one pass");
+    range("relax.passes", c_.relax->passes, 1, true, 1e6, "passes");
+  }
   LimitsCase const& l = c_.limits;
   range("limits.overlap", l.overlap, 0, false, 0.5, "d; the watch stops the run above it");
   bool const ordered =

@@ -168,6 +168,9 @@ std::string to_toml(Case const& c) {
   out += fmt::format("\n[output]\nevery = {}  # [s]\nparaview = {}\n", c.output.every, c.output.paraview);
   if (c.checkpoint)
     out += fmt::format("\n[checkpoint]\nevery = {}  # [s]\nkeep = {}\n", c.checkpoint->every, c.checkpoint->keep);
+  if (c.relax)
+    out += fmt::format("\n[relax]\noverlap = {}  # [d]\ntravel = {}  # [d]\npasses = {}\n", c.relax->overlap,
+                       c.relax->travel, c.relax->passes);
   out += fmt::format("\n[limits]\noverlap = {}  # [d]\ngradient = [{}, {}]\nledger = {}\n", c.limits.overlap,
                      c.limits.gradient_low, c.limits.gradient_high, c.limits.ledger);
   for (CertificateLimit const& l : certificate_limits())

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/travel.h"
 #include "core/wall_bodies.h"
 #include "kernels/base/profile.h"
 #include "kernels/bounds.h"
@@ -15,6 +16,8 @@ namespace {
 
 // Boxes grow by this part of d, so that the pair list outlives many steps.
 double constexpr pair_skin = 0.05;
+// Bodies that move by more than this part of their skin in a step are looked for further ahead.
+double constexpr fast_way = 0.2;
 // Brute force looks far beyond it, so that a pair the boxes missed would show.
 double constexpr brute_force_skin = 0.25;
 
@@ -83,7 +86,12 @@ void rebuild_pairs(Queue const& queue, Scene const& scene, SceneView const& view
   set_skins(scene, skin, work);
   work.box.resize(scene.solids());
   std::vector<double> grown = work.skin;  // boxes reach as far as adhesion does
-  for (double& s : grown) s += scene.cohesion_margin;
+  for (int i = 0; i < scene.solids(); ++i) {
+    grown[i] += scene.cohesion_margin;
+    // What could cross its partner within a step has to be seen before it does (core/travel.h).
+    double const way = surface_speed(scene, state, i) * state.time_step;
+    if (way > fast_way * work.skin[i]) grown[i] += way;
+  }
   compute_bounds(queue, view, state.view(), grown, work.box);
   find_pairs(queue, view, work.box, work.broad_phase);
   ScopedTimer const timer(queue.profile, "broad_phase/match", work.broad_phase.pair.size());

@@ -11,7 +11,10 @@
 #include "core/effect_stages.h"
 #include "core/energy.h"
 #include "core/insertion.h"
+#include "core/relax.h"
 #include "core/simulation_impl.h"
+#include "core/surroundings.h"
+#include "core/travel.h"
 #include "core/wall_motion.h"
 #include "kernels/body_effects.h"
 #include "kernels/integrate.h"
@@ -29,6 +32,7 @@ Simulation::Impl::Impl(Case const& c_, SimulationOptions const& options_, Frame 
     scene.networks.device = options.network_device;
   }
   effects = effects_of(c, scene);
+  if (std::vector<std::string> const found = load_problems(c, scene); !found.empty()) throw InputError(found);
   contacts.brute_force = options.brute_force;
   int const n = scene.bodies();
   estimate = estimate_critical_step(c, scene, placement);
@@ -59,11 +63,13 @@ Simulation::Impl::Impl(Case const& c_, SimulationOptions const& options_, Frame 
   if (start && (effects.insertion || effects.deletion)) state.activity = start->activity;
   if (effects.insertion) start_insertion(c, scene, state);
   if (effects.deletion) start_deletion(c, scene, state);
+  surroundings = surroundings_of(scene, state);
   work.external.assign(n, {});
   if (effects.gravity) apply_gravity(queue, scene.view(), *c.gravity, work.external);
   // Free flight needs no small step, but output does: at least a hundred steps a run.
   state.time_step =
       c.time.step ? *c.time.step : std::min({c.time.safety * estimate.critical, estimate.accurate, c.time.end / 100});
+  if (c.relax && !start) messages.push_back(relax_overlaps(queue, c, scene, effects, contacts, state, work));
   evaluate_contacts(queue, scene, effects, contacts, 0, state, work);
   report = watch(queue, scene, state, gravity_size(), work);
   state.initial_energy = mechanical_energy(make_ledger(scene, c.gravity, state, work));
@@ -102,6 +108,8 @@ RunState Simulation::Impl::step() {
   state.kinetic_peak = std::max(state.kinetic_peak, report.kinetic_total);
   check_finite();
   check_time_step();
+  check_travel();
+  check_leaving();
   if (effects.settle) settle();
   if (run_state == RunState::running && state.time >= c.time.end * (1 - 1e-12)) run_state = RunState::ended;
   if (effects.measures) {
@@ -143,11 +151,41 @@ void Simulation::Impl::check_finite() const {
 }
 
 void Simulation::Impl::check_overlap() const {
+  if (report.depth > deepest_share)
+    stop(
+        fmt::format("{} are {:.3g} half thicknesses inside each other, above {} the contact would pull them through; a "
+                    "smaller impact speed or a stiffer contact lets the run go on",
+                    describe_pair(scene, c, work.pair[report.depth_pair]), report.depth, deepest_share));
   if (report.overlap > c.limits.overlap)
     stop(
         fmt::format("{} overlap by {:.3g} d, limits.overlap is {:.3g}. A smaller impact speed, a stiffer contact or a "
                     "higher limit lets the run go on",
                     describe_pair(scene, c, work.pair[report.overlap_pair]), report.overlap, c.limits.overlap));
+}
+
+void Simulation::Impl::check_leaving() {
+  int const gone = first_outside(surroundings, scene, state);
+  if (gone < 0) return;
+  messages.push_back(
+      fmt::format("t = {:.4g} s: {} has left the walls and all starting places far behind; nothing here will bring it "
+                  "back, and [[delete]] can take such grains out",
+                  state.time, describe_body(scene, gone)));
+  surroundings = empty_box();
+}
+
+// Two bodies must not pass through each other between two steps.
+void Simulation::Impl::check_travel() {
+  PairTravel const travel = largest_pair_travel(scene, state, work.pair);
+  if (!(travel.share > largest_travel)) return;
+  std::string const pair = describe_pair(scene, c, work.pair[travel.pair]);
+  if (c.time.step)
+    stop(
+        fmt::format("{} approach by {:.3g} half thicknesses of the thinner one in one time.step = {:.3g} s, above {} "
+                    "they could pass through each other unseen; use step = \"auto\" or a smaller one",
+                    pair, travel.share, state.time_step, largest_travel));
+  while (largest_pair_travel(scene, state, work.pair).share > largest_travel) state.time_step /= 2;
+  messages.push_back(fmt::format("t = {:.4g} s: {} meet too fast for their thickness, time step halved to {:.3g} s",
+                                 state.time, pair, state.time_step));
 }
 
 void Simulation::Impl::check_time_step() {
@@ -163,7 +201,7 @@ void Simulation::Impl::check_time_step() {
                       state.time, share, critical));
       warned_of_share = true;
     }
-    if (share > 1.5)
+    if (share > 1)
       throw WatchStop(
           fmt::format("stopped at t = {:.6g} s, step {}: time.step = {:.3g} s is {:.2f} of the critical step "
                       "{:.3g} s; use step = \"auto\" or a smaller one",

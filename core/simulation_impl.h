@@ -27,6 +27,7 @@ struct Simulation::Impl {
   RunState run_state = RunState::running;
   std::vector<std::string> messages;
   bool warned_of_share = false;
+  Box surroundings;  // empty: without walls, or a grain has left and it was said
   MeasureCache measure_cache;
   std::vector<MeasureRow> measure_rows;
   std::vector<Measurement> measure_on_schedule;  // at the end: State::measure without the samples taken because of it
@@ -42,6 +43,8 @@ struct Simulation::Impl {
   void check_finite() const;
   void check_overlap() const;
   void check_time_step();
+  void check_travel();
+  void check_leaving();
   void settle();
 };
 

@@ -2,10 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/time_step.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "core/travel.h"
 #include "core/wall_motion.h"
 #include "kernels/contact_laws.h"
 
@@ -115,6 +118,7 @@ StepEstimate estimate_critical_step(Case const& c, Scene const& scene, Placement
     speed2 += 2 * norm(*c.gravity) * fall_height(normalized(*c.gravity), scene, placement);
   speed2 += speed2_of_forces(c, scene, placement);
   out.speed = std::sqrt(speed2);
+  if (out.speed > 0) out.accurate = largest_travel * least_half_thickness(scene) / out.speed;
   for (int i = 0; i < scene.bodies(); ++i) {
     Shape const shape = scene.template_shape(scene.shape_of[i]);
     double const d = scene.diameter[i], m = scene.mass[i];
@@ -155,6 +159,40 @@ StepEstimate estimate_critical_step(Case const& c, Scene const& scene, Placement
     }
   }
   return out;
+}
+
+std::vector<std::string> load_problems(Case const& c, Scene const& scene) {
+  std::vector<std::string> found;
+  if (!c.gravity) return found;
+  int const materials = static_cast<int>(scene.material.size());
+  std::vector<int> smallest(materials, -1), heaviest(materials, -1);
+  for (int i = 0; i < scene.bodies(); ++i) {
+    int& small = smallest[scene.material_of[i]];
+    int& heavy = heaviest[scene.material_of[i]];
+    if (small < 0 || scene.diameter[i] < scene.diameter[small]) small = i;
+    if (heavy < 0 || scene.mass[i] > scene.mass[heavy]) heavy = i;
+  }
+  for (int a = 0; a < materials; ++a)
+    for (int b = 0; b < materials; ++b) {
+      PressureLaw const normal = scene.contact[a * materials + b].normal;
+      if (smallest[a] < 0 || heaviest[b] < 0 || smallest[a] == heaviest[b] || !(normal.modulus > 0)) continue;
+      double const d = scene.diameter[smallest[a]], depth = c.limits.overlap * d;
+      double const radius = 0.5 / (1 / d + 1 / scene.diameter[heaviest[b]]);
+      PressureLaw const law = law_at_radius(normal, radius);
+      double const face = flat_face(scene.template_shape(scene.shape_of[smallest[a]])) * d * d;
+      double const carried = std::max(SphereLaw{law, radius}.force(depth), face * law.pressure(depth));
+      double const weight = scene.mass[heaviest[b]] * norm(*c.gravity);
+      if (weight <= carried) continue;
+      found.push_back(fmt::format(
+          "load check: the heaviest grain of '{}' weighs {:.3g} N, {:.3g} times the smallest one of '{}', which "
+          "carries "
+          "{:.3g} N at limits.overlap = {}. Multiply the stiffness of contact '{}' - '{}' by {:.3g}{}",
+          scene.material[b], weight, scene.mass[heaviest[b]] / scene.mass[smallest[a]], scene.material[a], carried,
+          c.limits.overlap, scene.material[a], scene.material[b], weight / carried,
+          law.kind == ContactLaw::winkler ? fmt::format(" (normal.kappa = {:.3g})", normal.modulus * weight / carried)
+                                          : ""));
+    }
+  return found;
 }
 
 double load_in_grain_weights(Case const& c, Scene const& scene) {

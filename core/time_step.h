@@ -20,4 +20,9 @@ StepEstimate estimate_critical_step(Case const& c, Scene const& scene, Placement
 // Weight the softest material pair carries at 1 % d, in weights of its heaviest grain (design physics.md section 4).
 double load_in_grain_weights(Case const& c, Scene const& scene);
 
+// Load check: of every two materials that meet, would the heaviest grain sink deeper than limits.overlap into the
+// smallest one by its weight alone? One line a pair, with the kappa or stiffness that would carry it; empty without
+// gravity.
+std::vector<std::string> load_problems(Case const& c, Scene const& scene);
+
 }  // namespace scree

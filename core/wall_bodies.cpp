@@ -11,6 +11,7 @@
 #include <optional>
 #include <utility>
 
+#include "shapes/half_thickness.h"
 #include "shapes/mesh_files.h"
 #include "shapes/mesh_report.h"
 #include "shapes/point_blocks.h"
@@ -98,6 +99,7 @@ struct Builder {
       box.kind = AnalyticKind::box;
       box.half_size = (high - low) * 0.5;
       WallSolid& s = add((low + high) * 0.5, {}, box, true);
+      s.record.half_thickness = std::min({box.half_size.x, box.half_size.y, box.half_size.z});
       add_nodes(s, sharp_wall_edges(box_mesh(box.half_size), sharp_angle, false), 0);
       return;
     }
@@ -143,6 +145,7 @@ struct Builder {
     if (!wall().inside) {
       shape.kind = AnalyticKind::cylinder;
       WallSolid& s = add(middle, towards(axis), shape, true);
+      s.record.half_thickness = std::min(radius, half);
       add_circle(s, radius, -half);
       add_circle(s, radius, half);
       return;
@@ -157,7 +160,8 @@ struct Builder {
     AnalyticSdf shape;
     shape.kind = AnalyticKind::capsule;
     shape.half_size = {wall().radius, wall().radius, norm(wall().to - wall().from) / 2};
-    add((wall().from + wall().to) * 0.5, towards(wall().to - wall().from), shape, true);
+    add((wall().from + wall().to) * 0.5, towards(wall().to - wall().from), shape, true).record.half_thickness =
+        wall().radius;
   }
 
   void add_cone() {
@@ -168,6 +172,7 @@ struct Builder {
     shape.half_size = {wall().radius_from, wall().radius_to, half};
     shape.half_wall = wall().thickness / 2;
     WallSolid& s = add((wall().from + wall().to) * 0.5, towards(axis), shape, true);
+    s.record.half_thickness = shape.half_wall;
     // The rims are round, but finer than a grain's nodes.
     double const slope = wall().radius_to - wall().radius_from, length = std::hypot(slope, 2 * half);
     double const out_r = slope / length * shape.half_wall, out_z = 2 * half / length * shape.half_wall;
@@ -212,8 +217,28 @@ struct Builder {
     s.record.box = {-reach, reach};
     s.record.bounding_radius = bounded ? norm(reach) : infinity;
     s.mesh = std::make_shared<MeshTree const>(mesh, MeshBorder::open);
+    if (sheet)
+      s.record.half_thickness = s.record.half_wall;
+    else if (bounded)
+      s.record.half_thickness = thickness_of(*s.mesh, norm(half));
     add_nodes(s, sharp_wall_edges(mesh, sharp_angle, sheet), s.record.half_wall);
     out.push_back(std::move(s));
+  }
+
+  // Of a closed solid, from the middles of its triangles inwards.
+  static double thickness_of(MeshTree const& tree, double size) {
+    int constexpr samples = 200;  // plates down to a hundredth of the solid's size
+    std::vector<Vec3> point, normal;
+    for (auto const& t : tree.mesh().triangle) {
+      Vec3 const a = tree.mesh().vertex[t[0]], b = tree.mesh().vertex[t[1]], c = tree.mesh().vertex[t[2]];
+      if (!(norm2(cross(b - a, c - a)) > 0)) continue;
+      point.push_back((a + b + c) / 3.0);
+      normal.push_back(normalized(cross(b - a, c - a)));
+    }
+    PhiBatch const phi = [&](Span<const Vec3> x, Span<double> value, Span<Vec3> gradient) {
+      for (int i = 0; i < x.size(); ++i) value[i] = mesh_distance(tree.sdf(), x[i], &gradient[i]);
+    };
+    return half_thickness(phi, point, normal, size / samples, size);
   }
 
   static bool only_inside_out(MeshReport const& r) {

@@ -39,6 +39,8 @@ WatchReport watch(Queue const& queue, Scene const& scene, State& state, double g
     double const d = wall ? scene.diameter[p.a] : std::min(scene.diameter[p.a], scene.diameter[p.b]);
     if (work.result[k].overlap > report.overlap * d)
       report.overlap = work.result[k].overlap / d, report.overlap_pair = static_cast<int>(k);
+    if (work.result[k].depth > report.depth)
+      report.depth = work.result[k].depth, report.depth_pair = static_cast<int>(k);
   }
   return report;
 }

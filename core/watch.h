@@ -12,6 +12,8 @@ namespace scree {
 struct WatchReport {
   double overlap = 0;  // largest, in diameters of the smaller grain of its pair
   int overlap_pair = -1;
+  double depth = 0;  // largest overlap over the half thickness of the body that the node is in
+  int depth_pair = -1;
   double kinetic_largest = 0;  // over grains, in m g d
   double kinetic_total = 0;    // [J]
   int not_finite = -1;         // first body with a non-finite state; -1: none

@@ -10,6 +10,9 @@
 namespace scree {
 namespace {
 
+// A part is thin when its half thickness is below this share of the other body's diameter.
+double constexpr thin_part = 0.2;
+
 struct ReducePair {
   SceneView scene;
   StateView state;
@@ -80,6 +83,11 @@ struct ReducePair {
   SCREE_HD void elastic_pass(Pair const& p, int which, double share, int side, PressureLaw const& law,
                              ContactParameters const& parameters, Vec3 centre_b, Sums& sums, PairResult& out) const {
     double const secant = law.secant();
+    int const partner = which == 0 ? p.b : p.a;
+    // Of thick bodies the core nodes keep the energy rising to the centre; thin parts would let a node through.
+    double const half = partner < 0 ? 1e300 : scene.shape_record(partner).half_thickness * scene.diameter[partner];
+    bool const of_a = which == 0 || p.with_plane() || scene.is_wall(p.b);  // walls have no size of their own
+    double const middle = half < thin_part * scene.diameter[of_a ? p.a : p.b] ? half : 1e300;
     for (int i = active_first[side]; i < active_first[side + 1]; ++i) {
       Sample const s = sample(p, which, share, i);
       double const steep = norm(s.gradient);
@@ -107,6 +115,7 @@ struct ReducePair {
       sums.depth += s.weight * s.phi;
       out.energy_normal += s.weight * law.energy(s.phi);
       out.overlap = s.phi > out.overlap ? s.phi : out.overlap;
+      out.depth = s.phi > out.depth * middle ? s.phi / middle : out.depth;
     }
   }
 
@@ -150,6 +159,20 @@ struct ReducePair {
     }
   }
 
+  // s of the two sides: halves, but where one body's nodes stand more than twice as far apart as the other's, the finer
+  // side carries all: nodes that are wider apart than the partner is large would see nothing of it, or far too much.
+  // Constant for a pair, so that the energy stays one.
+  struct Shares {
+    double of[2];
+  };
+  SCREE_HD Shares shares_of(Pair const& p) const {
+    double const a = scene.shape_record(p.a).node_spacing * scene.diameter[p.a];
+    double const b = scene.shape_record(p.b).node_spacing * scene.diameter[p.b];
+    if (a > 2 * b) return {{0, 1}};
+    if (b > 2 * a) return {{1, 0}};
+    return {{0.5, 0.5}};
+  }
+
   SCREE_HD void operator()(int k) const {
     if (closed_form[k]) return;
     Pair const p = pair[k];
@@ -158,13 +181,14 @@ struct ReducePair {
     int const sides[2] = {side_of_pair[2 * std::size_t(k)], side_of_pair[2 * std::size_t(k) + 1]};
     // Walls carry nodes along their sharp edges only, so the grain's nodes keep their whole weight against them.
     bool const wall = p.with_plane() || scene.is_wall(p.b);
-    double const share = !wall && sides[0] >= 0 && sides[1] >= 0 ? 0.5 : 1;
+    Shares const share = wall || sides[0] < 0 || sides[1] < 0 ? Shares{{1, 1}} : shares_of(p);
     ContactParameters const& parameters = contact_parameters(scene, p);
     PressureLaw const law = law_at_radius(parameters.normal, effective_radius(scene, p));
     Vec3 const centre_b = centre_of_b(scene, state, p);
     Sums sums;
     for (int which = 0; which < 2; ++which)
-      if (sides[which] >= 0) elastic_pass(p, which, share, sides[which], law, parameters, centre_b, sums, out);
+      if (sides[which] >= 0)
+        elastic_pass(p, which, share.of[which], sides[which], law, parameters, centre_b, sums, out);
     if (out.active == 0) {
       result[k] = out;
       return;
@@ -187,7 +211,8 @@ struct ReducePair {
     Vec3 pressing;  // normal force on a, with its damping [N]
     for (int which = 0; which < 2; ++which)
       if (sides[which] >= 0)
-        dissipative_pass(p, which, share, sides[which], law, parameters, beta, beta_t, centre_b, pressing, out);
+        dissipative_pass(p, which, share.of[which], sides[which], law, parameters, beta, beta_t, centre_b, pressing,
+                         out);
     out.stiffness = sums.stiffness > sums.tangential ? sums.stiffness : sums.tangential;
     out.stiffness += sums.adhesive;
     out.damping_ratio = zeta;

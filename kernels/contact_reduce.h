@@ -30,6 +30,7 @@ struct PairResult {
   double arm2_a = 0, arm2_b = 0;  // squared distance contact point - centroid [m^2]
   double damping_ratio = 0;       // zeta of the material pair
   double overlap = 0;             // largest phi at a node [m]
+  double depth = 0;               // largest phi at a node over the half thickness of the body it is in
   int active = 0;                 // nodes (or closed-form contacts) that carry force
   double friction_loss = 0;       // independent measure of the friction and tangential damping work of this step [J]
 };

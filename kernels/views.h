@@ -36,6 +36,7 @@ struct ShapeRecord {
   Box box;                                      // of the zero set in the body frame [d]
   double lipschitz = 1;                         // upper bound of |grad phi| outside the solid
   double node_spacing = 0;                      // typical [d]
+  double half_thickness = 1e300;                // of its thin parts as phi measures it [d]; 1e300: without a middle
   int compact = -1;                             // of NodesView::compact; -1: nodes are kept as arrays
   int first_node = 0, nodes = 0;                // first_node: of NodesView::position, compact: of NodesView::radius
   int first_block = 0, blocks = 0;

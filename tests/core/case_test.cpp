@@ -348,6 +348,17 @@ TEST_F(CaseFile, ReplicasEntriesApartAndScatter) {
              {"insert.scatter: has a meaning beside kind = \"list\" and \"file\" only"});
 }
 
+TEST_F(CaseFile, Relax) {
+  std::string const text = std::string(minimal) + "[relax]\noverlap = 0.002\npasses = 40\n";
+  for (Case const& c : {load(text), load(to_toml(load(text)))}) {
+    ASSERT_TRUE(c.relax);
+    EXPECT_TRUE(c.relax->overlap == 0.002 && c.relax->travel == RelaxCase{}.travel && c.relax->passes == 40);
+  }
+  EXPECT_EQ(to_toml(load(minimal)).find("relax"), std::string::npos);
+  expect_one(refused(with(text, "passes = 40", "passes = 0")), {"relax.passes: 0 is out of range"});
+  expect_one(refused(with(text, "passes = 40", "travel = 0.5")), {"relax.travel: 0.5 is out of range"});
+}
+
 TEST_F(CaseFile, EffectsOnBodies) {
   std::string const text = std::string(minimal) +
                            "[drag]\ndensity = 1.2\ncoefficient = 0.5\nfluid_velocity = [1, 0, 0]\n[damping]\nrate = "
