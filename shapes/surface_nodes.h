@@ -12,7 +12,8 @@ namespace scree {
 
 // Nodes of one shape, units of d, body frame, sorted so that consecutive runs of nodes_per_block are compact.
 // The first n_surface nodes lie on the surface; the rest are core nodes (every 4th surface node at half scale with
-// 4x its area, and the centre with the total area) that keep the contact energy monotone in deep overlap.
+// 4x its area, and the centre with the total area; those that are inside) that keep the contact energy monotone in deep
+// overlap.
 struct SurfaceNodes {
   std::vector<Vec3> position;
   std::vector<double> area;  // [d^2]
