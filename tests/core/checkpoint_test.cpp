@@ -316,6 +316,23 @@ TEST_F(CheckpointFile, DamagedNewestIsPassedBy) {
   }
 }
 
+// Poses of moving walls come back with the frame, and a drum's bore and ends are all there.
+TEST_F(CheckpointFile, JournalHoldsThePosesOfMovingWalls) {
+  Simulation s(spheres_in_a_drum(), {});
+  for (int i = 0; i < 5; ++i) s.step();
+  Frame const written = s.frame();
+  ASSERT_EQ(written.wall_position.size(), 3u);  // bore and one end of the drum, the sliding plane
+  fs::path const journal = folder / "frames.log";
+  JournalWriter(journal, 0).append(written, s.ledger());
+  JournalReader reader(journal);
+  Frame read;
+  LedgerRow row;
+  ASSERT_TRUE(reader.next(read, row));
+  EXPECT_EQ(read.wall_position, written.wall_position);
+  EXPECT_EQ(read.wall_orientation, written.wall_orientation);
+  EXPECT_NE(read.wall_orientation[0], s.results_header().wall_body[0].orientation);
+}
+
 // Any cut through the journal loses the frame that is cut and nothing before it.
 TEST_F(CheckpointFile, TornJournalKeepsItsWholeRecords) {
   Simulation s(small_case(), {});
