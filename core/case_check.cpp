@@ -18,6 +18,7 @@
 #include "core/certificate_gate.h"
 #include "core/nearest_name.h"
 #include "core/sampled_grains.h"
+#include "kernels/restitution.h"
 #include "shapes/analytic_shapes.h"
 
 namespace scree {
@@ -45,6 +46,7 @@ class Checker {
   void time();
   void materials();
   void contacts();
+  void restitution(std::string const& key, double e, ContactLaw law);
   void normal_law(std::string const& at, ContactCase const& k);
   void touching_pairs();
   void shapes(std::string const& key, GrainsCase const& g);
@@ -62,7 +64,9 @@ class Checker {
 void Checker::range(std::string const& key, double value, double low, bool low_allowed, double high,
                     char const* reason) {
   if (std::isfinite(value) && (low_allowed ? value >= low : value > low) && value <= high) return;
-  std::string const upper = std::isfinite(high) ? fmt::format(" and <= {}", high) : "";
+  std::string const upper = std::isfinite(high)    ? fmt::format(" and <= {}", high)
+                            : std::isfinite(value) ? ""
+                                                   : " and finite";
   fail(key,
        fmt::format("{} is out of range: must be {} {}{} ({})", value, low_allowed ? ">=" : ">", low, upper, reason));
 }
@@ -135,11 +139,9 @@ void Checker::contacts() {
     if (k.friction)
       range(at + "friction", *k.friction, 0, true, infinity, "a negative friction would drive the motion");
     if (k.damping_ratio)
-      range(at + "damping.ratio", *k.damping_ratio, 0, true, 10,
+      range(at + "damping.ratio", *k.damping_ratio, 0, true, largest_damping_ratio,
             "share of the critical damping; a negative one would add energy");
-    if (k.restitution)
-      range(at + "damping.restitution", *k.restitution, 0, false, 1,
-            "rebound speed over impact speed; above 1 energy would be made");
+    if (k.restitution) restitution(at + "damping.restitution", *k.restitution, k.law);
     if (k.cohesion) {
       range(at + "cohesion.traction", k.cohesion->traction, 0, true, infinity, "Pa; a negative one would repel");
       range(at + "cohesion.range", k.cohesion->range, 0, true, infinity, "m outside the surface");
@@ -151,6 +153,15 @@ void Checker::contacts() {
     }
     if (k.damping_ratio && k.restitution) fail(at + "damping", "give exactly one of ratio and restitution");
   }
+}
+
+void Checker::restitution(std::string const& key, double e, ContactLaw law) {
+  range(key, e, 0, false, 1, "rebound speed over impact speed; above 1 energy would be made");
+  if (!(e > 0 && e < 0.1)) return;  // the rest is reached by every law
+  double const least = restitution_of(largest_damping_ratio, DampingPath::nodes, law);
+  if (e < least)
+    fail(key, fmt::format("{} is below what damping reaches, {:.2g} at ratio = {}: ask for no less", e, least,
+                          largest_damping_ratio));
 }
 
 void Checker::normal_law(std::string const& at, ContactCase const& k) {

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <set>
 
 #include "core/nearest_name.h"
 #include "core/toml_text.h"
@@ -157,11 +158,12 @@ class WallCheck {
     if (!(is_finite(v) && norm(v) > 0)) fail_(key, "must have a length: " + what);
   }
   void positive(std::string const& key, double value) {
-    if (!(value > 0 && std::isfinite(value))) fail_(key, fmt::format("{} must be above 0", value));
+    if (!(value > 0 && std::isfinite(value))) fail_(key, fmt::format("{} must be above 0, and finite", value));
   }
   void axis() {
     finite("from", w_.from);
-    if (!(norm(w_.to - w_.from) > 0)) fail_("to", "must differ from `from`: the two are the ends of the axis");
+    finite("to", w_.to);
+    if (norm2(w_.to - w_.from) == 0) fail_("to", "must differ from `from`: the two are the ends of the axis");
   }
   void open(std::vector<std::string> const& faces) {
     for (std::string const& face : w_.open)
@@ -174,6 +176,8 @@ class WallCheck {
     if (!(is_finite(size) && size.x > 0 && size.y > 0 && size.z > 0))
       fail_("max", fmt::format("the box is {} x {} x {} m: max must exceed min on every axis", size.x, size.y, size.z));
     open({"-x", "+x", "-y", "+y", "-z", "+z"});
+    if (w_.inside && std::set(w_.open.begin(), w_.open.end()).size() == 6)
+      fail_("open", "leaves no face: nothing is left of the wall; remove it, or keep a face");
   }
   void cone() {
     axis();

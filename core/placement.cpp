@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/placement.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -166,6 +168,26 @@ void place_at_random(Case const& c, Scene const& scene, Placement& out, std::vec
   }
 }
 
+// Lattices and lists know nothing of walls. A grain whose centre is inside one would stop the run at its first step.
+void check_starts(Case const& c, Scene const& scene, Placement const& placement, std::vector<std::string>& found) {
+  using Kind = InsertCase::Kind;
+  WallClearance const walls(scene);
+  for (GrainEntry const& e : entries_of(c)) {
+    Kind const kind = c.grains[e.group].insert.kind;
+    if (kind == Kind::rate || kind == Kind::random) continue;  // these look for their places
+    int inside = 0, first = -1, wall = -1;
+    for (int i = e.first; i < e.first + e.count; ++i)
+      if (int const w = walls.wall_around(placement.position[i]); w >= 0 && ++inside == 1) first = i, wall = w;
+    if (inside == 0) continue;
+    Vec3 const x = placement.position[first];
+    found.push_back(fmt::format(
+        "{}: {} of {} grains start inside a wall, the first of them grain {} at [{:.4g}, {:.4g}, {:.4g}] m inside wall "
+        "'{}'. Move them, or the wall: the solid of a plane is behind its normal, `side` says where grains of a closed "
+        "wall are",
+        name_of(c, e), inside, e.count, first - e.first + 1, x.x, x.y, x.z, c.wall[wall].name));
+  }
+}
+
 // Entries inserted over time need a place at least while nothing else is there.
 void check_later_places(Case const& c, Scene const& scene, std::vector<std::string>& found) {
   std::vector<double> largest(c.grains.size(), 0);
@@ -213,6 +235,7 @@ Placement place_grains(Case const& c, Scene const& scene, std::vector<std::strin
     }
   }
   place_at_random(c, scene, out, found);
+  check_starts(c, scene, out, found);
   check_later_places(c, scene, found);
   return out;
 }

@@ -157,10 +157,11 @@ void Simulation::Impl::check_overlap() const {
                     "smaller impact speed or a stiffer contact lets the run go on",
                     describe_pair(scene, c, work.pair[report.depth_pair]), report.depth, deepest_share));
   if (report.overlap > c.limits.overlap)
-    stop(
-        fmt::format("{} overlap by {:.3g} d, limits.overlap is {:.3g}. A smaller impact speed, a stiffer contact or a "
-                    "higher limit lets the run go on",
-                    describe_pair(scene, c, work.pair[report.overlap_pair]), report.overlap, c.limits.overlap));
+    stop(fmt::format("{} overlap by {:.3g} d, limits.overlap is {:.3g}. {}",
+                     describe_pair(scene, c, work.pair[report.overlap_pair]), report.overlap, c.limits.overlap,
+                     state.step == 1
+                         ? "They start in each other: move them apart"
+                         : "A smaller impact speed, a stiffer contact or a higher limit lets the run go on"));
 }
 
 void Simulation::Impl::check_leaving() {

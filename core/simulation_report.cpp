@@ -122,10 +122,14 @@ Plan Simulation::plan() const {
   if (s.c.replicas > 1) plan.notes.push_back(replica_note(s.c));
   if (plan.bodies == 0) plan.notes.push_back("the case has no grains");
   if (std::isfinite(s.estimate.critical)) {
+    double const share = s.state.time_step / s.estimate.critical;
     plan.notes.push_back(fmt::format(
         "critical step {:.3g} s from a worst impact of {:.3g} m/s (overlap {:.2g} d); the step "
-        "is {:.2f} of it",
-        s.estimate.critical, s.estimate.speed, s.estimate.overlap, s.state.time_step / s.estimate.critical));
+        "is {:.2f} of it{}",
+        s.estimate.critical, s.estimate.speed, s.estimate.overlap, share,
+        share > 1     ? ": contacts are unstable, the run stops at the first that cannot work; use step = \"auto\""
+        : share > 0.5 ? ": above 0.5 the energy ledger suffers; use step = \"auto\" or a smaller one"
+                      : ""));
     double const load = load_in_grain_weights(s.c, s.scene);
     plan.notes.push_back(
         fmt::format("load check: at an overlap of 0.01 d the softest grain carries {:.3g} grain weights{}", load,

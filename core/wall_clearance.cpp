@@ -18,17 +18,28 @@ double wall_phi(Scene const& scene, int wall, Vec3 point) {
                              : mesh_distance(mesh, point, nullptr);
 }
 
+double WallClearance::phi(int wall, Vec3 point) const {
+  std::size_t const body = scene_.bodies() + wall;
+  Vec3 const at = position_ ? (*position_)[body] : scene_.wall[wall].position;
+  Quat const turn = orientation_ ? (*orientation_)[body] : scene_.wall[wall].orientation;
+  return wall_phi(scene_, wall, transposed_times(to_matrix(turn), point - at));
+}
+
 bool WallClearance::is_clear(Vec3 centre, double radius) const {
   bool const in_front = std::all_of(scene_.plane.begin(), scene_.plane.end(),
                                     [&](PlaneRecord const& p) { return dot(p.normal, centre - p.point) >= radius; });
   if (!in_front) return false;
-  for (int w = 0; w < static_cast<int>(scene_.wall.size()); ++w) {
-    std::size_t const body = scene_.bodies() + w;
-    Vec3 const at = position_ ? (*position_)[body] : scene_.wall[w].position;
-    Quat const turn = orientation_ ? (*orientation_)[body] : scene_.wall[w].orientation;
-    if (-wall_phi(scene_, w, transposed_times(to_matrix(turn), centre - at)) < radius) return false;
-  }
+  for (int w = 0; w < static_cast<int>(scene_.wall.size()); ++w)
+    if (-phi(w, centre) < radius) return false;
   return true;
+}
+
+int WallClearance::wall_around(Vec3 point) const {
+  for (PlaneRecord const& p : scene_.plane)
+    if (dot(p.normal, point - p.point) < 0) return p.wall;
+  for (int w = 0; w < static_cast<int>(scene_.wall.size()); ++w)
+    if (phi(w, point) > 0) return scene_.wall[w].wall;
+  return -1;
 }
 
 }  // namespace scree

@@ -1,4 +1,4 @@
-// wall_clearance.h: whether a sphere is clear of all walls, for finding places for grains.
+// wall_clearance.h: whether a sphere or a point is clear of all walls, for finding and judging places of grains.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -17,8 +17,12 @@ class WallClearance {
       : scene_(scene), position_(&position), orientation_(&orientation) {}
 
   bool is_clear(Vec3 centre, double radius) const;
+  // Wall of the case whose solid holds the point; -1: none does.
+  int wall_around(Vec3 point) const;
 
  private:
+  double phi(int wall, Vec3 point) const;  // of a wall body [m]
+
   Scene const& scene_;
   std::vector<Vec3> const* position_ = nullptr;
   std::vector<Quat> const* orientation_ = nullptr;

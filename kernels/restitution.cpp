@@ -60,7 +60,7 @@ double damping_ratio_for(double restitution, DampingPath path, ContactLaw law) {
   if (!(restitution > 0 && restitution <= 1))
     throw std::invalid_argument("restitution " + std::to_string(restitution) + " is outside (0, 1]");
   if (restitution == 1) return 0;
-  double low = 0, high = 8;
+  double low = 0, high = largest_damping_ratio;
   if (restitution_of(high, path, law) > restitution)
     throw std::invalid_argument("restitution " + std::to_string(restitution) +
                                 " is below what the damping law reaches");

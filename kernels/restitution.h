@@ -13,10 +13,12 @@ enum class DampingPath {
   sphere,  // the closed form clips the sum, once a pair
 };
 
+double constexpr largest_damping_ratio = 10;  // e is then 0.002 to 0.005, by law and path
+
 // e in (0, 1] of a smooth convex impact at damping ratio zeta >= 0. Integrated to 1e-6 (winkler), 1e-4 (others).
 double restitution_of(double zeta, DampingPath path, ContactLaw law = ContactLaw::winkler);
 
-// zeta whose restitution is e. Throws std::invalid_argument unless 0 < e <= 1 and the law reaches e (about 0.02).
+// zeta whose restitution is e. Throws std::invalid_argument unless 0 < e <= 1 and e is reached by the largest ratio.
 double damping_ratio_for(double restitution, DampingPath path, ContactLaw law = ContactLaw::winkler);
 
 }  // namespace scree
