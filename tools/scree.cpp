@@ -1,4 +1,5 @@
-// scree.cpp: the engine's program: run, plan, check, info, render, export, envelopes, validate.
+// scree.cpp: the engine's program: run, plan, check, info, energy, render, report, export,
+// envelopes, validate.
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
@@ -120,6 +121,14 @@ void add_render(CLI::App& app, RenderArguments& a, std::function<int()>& chosen)
   c->callback([&] { chosen = [&] { return render_command(a); }; });
 }
 
+void add_energy(CLI::App& app, EnergyArguments& a, std::function<int()>& chosen) {
+  CLI::App* const c = app.add_subcommand("energy", "Draw the energy ledger of a results file over time");
+  c->add_option("results", a.results, "results.h5")->required();
+  c->add_option("-o,--output", a.picture, "Picture to write (.png, .svg)")->required();
+  c->add_flag("--recover", a.recover, "Read the unfinished file of a run that was killed");
+  c->callback([&] { chosen = [&] { return energy_command(a); }; });
+}
+
 void add_report(CLI::App& app, ReportArguments& a, std::function<int()>& chosen) {
   CLI::App* const c = app.add_subcommand("report", "Write one self-contained HTML page about a run");
   c->add_option("run", a.folder, "Output folder of the run, or its results.h5")->required()->check(CLI::ExistingPath);
@@ -223,6 +232,7 @@ int main(int argc, char** argv) {
   RunArguments run;
   CaseArguments plan, check;
   InfoArguments info;
+  EnergyArguments energy;
   RenderArguments render;
   ReportArguments report;
   ExportArguments exported;
@@ -232,6 +242,7 @@ int main(int argc, char** argv) {
   add_plan(app, plan, chosen);
   add_check(app, check, chosen);
   add_info(app, info, chosen);
+  add_energy(app, energy, chosen);
   add_render(app, render, chosen);
   add_report(app, report, chosen);
   add_export(app, exported, chosen);

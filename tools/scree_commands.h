@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -47,6 +48,11 @@ struct RenderArguments {
   double colour_limit = 0;                   // of a scale; 0: the largest value in the (first) frame
   std::vector<double> cut;                   // point and normal of a plane, 6 numbers; empty: none
   int threads = 0;
+  bool recover = false;
+};
+
+struct EnergyArguments {
+  std::filesystem::path results, picture;  // .png or .svg
   bool recover = false;
 };
 
@@ -101,6 +107,7 @@ int plan_command(CaseArguments const& arguments);
 int check_command(CaseArguments const& arguments);
 int info_command(InfoArguments const& arguments);
 int render_command(RenderArguments const& arguments);
+int energy_command(EnergyArguments const& arguments);
 int report_command(ReportArguments const& arguments);
 int export_command(ExportArguments const& arguments);
 int envelopes_command(EnvelopesArguments const& arguments);

@@ -393,6 +393,31 @@ TEST_F(Program, EnvelopesWriteTablesAndPictures) {
     EXPECT_EQ(fs::exists(folder_ / picture), pictures) << picture;
 }
 
+TEST_F(Program, EnergyDrawsTheLedgerWithEveryNameInIt) {
+  // An applied force and drag, so that the ledger has columns that not every run has.
+  write("small.toml", with(small_case, "[output]\nevery = 0.001",
+                           "[drag]\ndensity = 1.2\ncoefficient = 0.5\n[[force]]\nname = \"push\"\ngrains = "
+                           "\"one\"\nforce = [1, 0, 0]\n[output]\nevery = 0.0005"));
+  ASSERT_EQ(scree("run small.toml --output out").code, 0);
+  Outcome const drawn = scree("energy out/results.h5 -o ledger.svg");
+  if (drawn.text.find("Matplotlib was not found") != std::string::npos) {
+    EXPECT_EQ(drawn.code, 4) << drawn.text;
+    GTEST_SKIP() << drawn.text;
+  }
+  ASSERT_EQ(drawn.code, 0) << drawn.text;
+  EXPECT_NE(drawn.text.find("ledger.svg: 5 rows to t = 0.002 s, residual"), std::string::npos) << drawn.text;
+  // Matplotlib writes each text of an SVG into a comment beside its outline.
+  std::string const picture = read_file(folder_ / "ledger.svg");
+  for (char const* name : {"kinetic", "potential, less its start", "elastic, normal", "elastic, tangential",
+                           "in: work of moving walls", "in: applied forces", "out: contact damping", "out: friction",
+                           "out: drag", "out: numerical removals", "residual [J]", "of the energy moved so far"})
+    EXPECT_NE(picture.find(name), std::string::npos) << name;
+  for (char const* name : {"rolling resistance", "deleted", "inserted", "global damping"})
+    EXPECT_EQ(picture.find(name), std::string::npos) << name << ": the case lacks the effect";
+  EXPECT_EQ(scree("energy out/results.h5 -o ledger.pdf").code, 2);
+  EXPECT_EQ(scree("energy small.toml -o ledger.png").code, 2);
+}
+
 TEST_F(Program, ExportsTheGrainsOfAFrameAsMeshes) {
   write("small.toml", small_case);
   ASSERT_EQ(scree("run small.toml").code, 0);
