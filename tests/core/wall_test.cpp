@@ -1,5 +1,5 @@
-// wall_test.cpp: walls as bodies: the same rebound from a formula and from any triangulation of it, prescribed motion
-// and its work, closed forms of spheres against curved walls, sharp edges, and what is refused.
+// wall_test.cpp: walls as bodies: prescribed motion and its work, closed forms of spheres against curved walls, sharp
+// edges, and what is refused. Rebounds from formulas and triangulations are row 18 of the validation book.
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -12,6 +12,7 @@
 #include "core/simulation_impl.h"
 #include "core/wall_motion.h"
 #include "shapes/mesh_files.h"
+#include "tests/support/box_surface.h"
 #include "tests/support/cases.h"
 #include "tests/support/contact_sets.h"
 
@@ -32,33 +33,6 @@ class Walls : public ::testing::Test {
   fs::path folder;
 };
 
-// Box surface with n x n squares a face, two triangles each, outward.
-TriangleMesh box_surface(Vec3 low, Vec3 high, int n) {
-  TriangleMesh soup;
-  for (int axis = 0; axis < 3; ++axis)
-    for (int side = 0; side < 2; ++side) {
-      int const u = (axis + 1) % 3, v = (axis + 2) % 3;
-      auto const corner = [&](int i, int j) {
-        Vec3 p;
-        p[axis] = side ? high[axis] : low[axis];
-        p[u] = i == n ? high[u] : low[u] + (high[u] - low[u]) * i / n;
-        p[v] = j == n ? high[v] : low[v] + (high[v] - low[v]) * j / n;
-        return p;
-      };
-      for (int i = 0; i < n; ++i)
-        for (int j = 0; j < n; ++j) {
-          int const at = static_cast<int>(soup.vertex.size());
-          for (Vec3 const& p : {corner(i, j), corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)})
-            soup.vertex.push_back(p);
-          if (side)
-            soup.triangle.insert(soup.triangle.end(), {{at, at + 1, at + 2}, {at, at + 2, at + 3}});
-          else
-            soup.triangle.insert(soup.triangle.end(), {{at, at + 2, at + 1}, {at, at + 3, at + 2}});
-        }
-    }
-  return weld(soup);
-}
-
 WallCase wall_of(WallKind kind, std::string const& name = "wall") {
   WallCase w;
   w.name = name;
@@ -77,83 +51,6 @@ MotionCase moving(Vec3 velocity) {
   m.kind = MotionKind::translation;
   m.velocity = velocity;
   return m;
-}
-
-struct Rebound {
-  Vec3 velocity, spin;
-};
-
-// An ellipsoid thrown into a corner region of the container: it meets the floor and two sides, sliding.
-Rebound rebound(WallCase const& wall) {
-  Case c = rock_case();
-  c.contact[0].friction = 0.3;
-  c.contact[0].damping_ratio = 0.1;
-  GrainsCase g = grains_at("ellipsoid:1:0.8:0.6", {{0.42, 0.12, 0.1}});
-  g.insert.quaternion = {normalized(Quat{0.9, 0.3, -0.2, 0.1})};
-  g.insert.velocity = {2, 1, -1.5};
-  g.insert.spin = {3, -5, 2};
-  c.grains = {g};
-  c.wall = {wall};
-  c.time.step = 1e-5;
-  c.time.end = 0.12;
-  Simulation s(c, {});
-  while (s.step() == RunState::running) {
-  }
-  return {s.frame().velocity[0], s.frame().spin[0]};
-}
-
-// Issue 4: a box as 12, 1,200 and 120,000 triangles against the analytic box, 1e-4. With this law even a corner agrees:
-// where a node is behind two faces, the square of its distance to their edge is the sum of the squares of its depths.
-TEST_F(Walls, TriangulatedBoxReboundsAsTheAnalyticBox) {
-  Vec3 const low{0, 0, 0}, high{0.6, 0.5, 0.4};
-  WallCase box = wall_of(WallKind::box);
-  box.min = low, box.max = high;
-  Rebound const expected = rebound(box);
-  EXPECT_GT(norm(expected.velocity - Vec3{2, 1, -1.5}), 1);  // it did meet the walls
-  for (int n : {1, 10, 100}) {
-    WallCase mesh = wall_of(WallKind::mesh);
-    mesh.file = folder / ("box" + std::to_string(n) + ".stl");
-    write_mesh(mesh.file, box_surface(low, high, n));
-    Rebound const r = rebound(mesh);
-    printf("%6d triangles: velocity to %.1e, spin to %.1e\n", 12 * n * n,
-           norm(r.velocity - expected.velocity) / norm(expected.velocity),
-           norm(r.spin - expected.spin) / norm(expected.spin));
-    EXPECT_LT(norm(r.velocity - expected.velocity), 1e-4 * norm(expected.velocity)) << n;
-    EXPECT_LT(norm(r.spin - expected.spin), 1e-4 * norm(expected.spin)) << n;
-  }
-}
-
-// The same from outside, onto a face: there the meshes carry the analytic box's edge nodes too.
-TEST_F(Walls, TriangulatedBlockReboundsAsTheAnalyticBlock) {
-  auto const throw_at = [&](WallCase const& wall) {
-    Case c = rock_case();
-    c.contact[0].friction = 0.3;
-    GrainsCase g = grains_at("superellipsoid:1:0.8:0.7:0.6", {{0.03, 0.02, 0.26}});
-    g.insert.quaternion = {normalized(Quat{0.8, 0.3, 0.4, 0.1})};
-    g.insert.velocity = {0.5, 0, -2};
-    c.grains = {g};
-    c.wall = {wall};
-    c.time.step = 1e-5;
-    c.time.end = 0.1;
-    Simulation s(c, {});
-    while (s.step() == RunState::running) {
-    }
-    return Rebound{s.frame().velocity[0], s.frame().spin[0]};
-  };
-  WallCase block = wall_of(WallKind::box);
-  block.inside = false;
-  block.min = {-0.3, -0.3, -0.2}, block.max = {0.3, 0.3, 0.2};
-  Rebound const expected = throw_at(block);
-  EXPECT_GT(expected.velocity.z, 0);
-  for (int n : {1, 10}) {
-    WallCase mesh = wall_of(WallKind::mesh);
-    mesh.inside = false;
-    mesh.file = folder / "block.ply";
-    write_mesh(mesh.file, box_surface(block.min, block.max, n));
-    Rebound const r = throw_at(mesh);
-    EXPECT_LT(norm(r.velocity - expected.velocity), 1e-4 * norm(expected.velocity)) << n;
-    EXPECT_LT(norm(r.spin - expected.spin), 1e-4 * norm(expected.spin)) << n;
-  }
 }
 
 // Force of the first step on a grain that overlaps a wall.
