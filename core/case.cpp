@@ -12,6 +12,7 @@
 #include "core/case_effects_text.h"
 #include "core/case_measure_text.h"
 #include "core/case_reader.h"
+#include "core/case_text.h"
 #include "core/case_wall.h"
 #include "core/certificate_gate.h"
 #include "core/insert_file.h"
@@ -364,18 +365,8 @@ std::vector<std::string> message_lines(Case const& c, CaseProblems const& proble
   return out;
 }
 
-}  // namespace
-
-std::filesystem::path mesh_file_of(std::string const& shape_word) {
-  return shape_word.starts_with(mesh_word) ? shape_word.substr(mesh_word.size()) : "";
-}
-
-InputError::InputError(std::vector<std::string> found)
-    : std::runtime_error(fmt::format("{}", fmt::join(found, "\n"))), problems(std::move(found)) {}
-
-Case load_case(std::filesystem::path const& file, std::vector<std::string> const& overrides,
-               std::filesystem::path const& share) {
-  CaseNode root = parse_case_file(file);
+Case case_of(CaseNode root, std::filesystem::path const& file, std::vector<std::string> const& overrides,
+             std::filesystem::path const& share) {
   std::vector<std::string> messages;
   for (std::string const& assignment : overrides) apply_override(root, assignment, messages);
   Case c;
@@ -395,6 +386,24 @@ Case load_case(std::filesystem::path const& file, std::vector<std::string> const
   for (std::string& line : message_lines(c, problems)) messages.push_back(std::move(line));
   if (!messages.empty()) throw InputError(std::move(messages));
   return c;
+}
+
+}  // namespace
+
+std::filesystem::path mesh_file_of(std::string const& shape_word) {
+  return shape_word.starts_with(mesh_word) ? shape_word.substr(mesh_word.size()) : "";
+}
+
+InputError::InputError(std::vector<std::string> found)
+    : std::runtime_error(fmt::format("{}", fmt::join(found, "\n"))), problems(std::move(found)) {}
+
+Case load_case(std::filesystem::path const& file, std::vector<std::string> const& overrides,
+               std::filesystem::path const& share) {
+  return case_of(parse_case_file(file), file, overrides, share);
+}
+
+Case case_from_text(std::string const& text, std::filesystem::path const& file) {
+  return case_of(parse_case_text(text, file.string()), file, {}, {});
 }
 
 }  // namespace scree

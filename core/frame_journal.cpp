@@ -2,15 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/frame_journal.h"
 
-#include <fcntl.h>
-#include <unistd.h>
 #include <zlib.h>
 
-#include <cerrno>
 #include <cstring>
-#include <system_error>
+#include <string>
 #include <type_traits>
-#include <vector>
 
 namespace scree {
 namespace {
@@ -63,6 +59,37 @@ struct Parts {
 
 }  // namespace
 
+std::vector<char> encode_record(Frame const& frame, LedgerRow const& row) {
+  std::vector<char> payload;
+  put(payload, frame.time);
+  put(payload, frame.step);
+  put(payload, frame.position);
+  put(payload, frame.orientation);
+  put(payload, frame.velocity);
+  put(payload, frame.spin);
+  put(payload, frame.activity);
+  put(payload, frame.wall_position);
+  put(payload, frame.wall_orientation);
+  put(payload, row);
+  return payload;
+}
+
+bool decode_record(std::vector<char> const& payload, Frame& frame, LedgerRow& row) {
+  Parts parts{payload};
+  parts.get(&frame.time, sizeof(frame.time));
+  parts.get(&frame.step, sizeof(frame.step));
+  parts.get(frame.position);
+  parts.get(frame.orientation);
+  parts.get(frame.velocity);
+  parts.get(frame.spin);
+  parts.get(frame.activity);
+  parts.get(frame.wall_position);
+  parts.get(frame.wall_orientation);
+  static_assert(std::is_trivially_copyable_v<LedgerRow>);
+  parts.get(&row, sizeof(row));
+  return parts.good && parts.at == payload.size();
+}
+
 JournalReader::JournalReader(std::filesystem::path const& file) : file_(std::fopen(file.c_str(), "rb")) {
   std::error_code error;
   auto const size = std::filesystem::file_size(file, error);
@@ -80,61 +107,17 @@ bool JournalReader::next(Frame& frame, LedgerRow& row) {
   std::vector<char> payload(head.length);
   if (std::fread(payload.data(), 1, payload.size(), file_) != payload.size() || checksum(payload) != head.crc)
     return false;
-  Parts parts{payload};
-  parts.get(&frame.time, sizeof(frame.time));
-  parts.get(&frame.step, sizeof(frame.step));
-  parts.get(frame.position);
-  parts.get(frame.orientation);
-  parts.get(frame.velocity);
-  parts.get(frame.spin);
-  parts.get(frame.activity);
-  parts.get(frame.wall_position);
-  parts.get(frame.wall_orientation);
-  static_assert(std::is_trivially_copyable_v<LedgerRow>);
-  parts.get(&row, sizeof(row));
-  if (!parts.good || parts.at != payload.size()) return false;
+  if (!decode_record(payload, frame, row)) return false;
   offset_ += static_cast<std::int64_t>(sizeof(head) + payload.size());
   return true;
 }
 
-JournalWriter::JournalWriter(std::filesystem::path const& file, std::int64_t keep)
-    : path_(file), file_(::open(file.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0644)) {
-  if (file_ < 0 || ::ftruncate(file_, keep) != 0 || ::lseek(file_, keep, SEEK_SET) != keep) fail();
-}
-
-JournalWriter::~JournalWriter() {
-  if (file_ >= 0) ::close(file_);
-}
-
 void JournalWriter::append(Frame const& frame, LedgerRow const& row) {
-  std::vector<char> record(sizeof(RecordHead)), payload;
-  put(payload, frame.time);
-  put(payload, frame.step);
-  put(payload, frame.position);
-  put(payload, frame.orientation);
-  put(payload, frame.velocity);
-  put(payload, frame.spin);
-  put(payload, frame.activity);
-  put(payload, frame.wall_position);
-  put(payload, frame.wall_orientation);
-  put(payload, row);
+  std::vector<char> const payload = encode_record(frame, row);
   RecordHead const head{record_magic, payload.size(), checksum(payload)};
-  std::memcpy(record.data(), &head, sizeof(head));
-  record.insert(record.end(), payload.begin(), payload.end());
-  for (std::size_t done = 0; done < record.size();) {
-    ssize_t const n = ::write(file_, record.data() + done, record.size() - done);
-    if (n < 0 && errno == EINTR) continue;
-    if (n < 0) fail();
-    done += static_cast<std::size_t>(n);
-  }
-}
-
-void JournalWriter::sync() {
-  if (::fsync(file_) != 0) fail();
-}
-
-void JournalWriter::fail() const {
-  throw std::system_error(errno, std::generic_category(), path_.string() + ": cannot be written");
+  std::string record(reinterpret_cast<char const*>(&head), sizeof(head));
+  record.append(payload.data(), payload.size());
+  file_.append(record);
 }
 
 }  // namespace scree

@@ -7,10 +7,16 @@
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
+#include <vector>
 
+#include "core/appended_file.h"
 #include "core/results.h"
 
 namespace scree {
+
+// The content of a record, without its head and CRC; and back: false where it is none, the outputs are then undefined.
+std::vector<char> encode_record(Frame const& frame, LedgerRow const& row);
+bool decode_record(std::vector<char> const& payload, Frame& frame, LedgerRow& row);
 
 // Reads from the start, record by record.
 class JournalReader {
@@ -30,19 +36,13 @@ class JournalReader {
 
 class JournalWriter {
  public:
-  // Goes on behind the first `keep` bytes, the rest is cut off. Throws std::system_error.
-  JournalWriter(std::filesystem::path const& file, std::int64_t keep);
-  ~JournalWriter();
-  JournalWriter(JournalWriter const&) = delete;
-  JournalWriter& operator=(JournalWriter const&) = delete;
+  // Goes on behind the first `keep` bytes, the rest is cut off. All throw std::system_error.
+  JournalWriter(std::filesystem::path const& file, std::int64_t keep) : file_(file, keep) {}
   void append(Frame const& frame, LedgerRow const& row);
-  void sync();  // what was appended is on the disk after this
+  void sync() { file_.sync(); }  // what was appended is on the disk after this
 
  private:
-  [[noreturn]] void fail() const;
-
-  std::filesystem::path path_;
-  int file_ = -1;
+  AppendedFile file_;
 };
 
 }  // namespace scree

@@ -10,6 +10,7 @@
 
 #include "core/nearest_name.h"
 #include "shapes/text_lines.h"
+#include "shapes/whole_file.h"
 
 namespace scree {
 namespace {
@@ -52,7 +53,7 @@ Columns read_columns(std::filesystem::path const& file, int line, std::vector<st
 
 void read_insert_file(InsertCase& insert) {
   std::filesystem::path const& file = insert.file;
-  std::string text = read_bytes(file);
+  std::string text = read_whole_file(file);
   for (char& c : text)
     if (c == ',' || c == '\r') c = ' ';
   Columns at{};

@@ -5,17 +5,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <optional>
-#include <system_error>
 
 #include "core/grain_mesh.h"
 #include "core/results_walls.h"
 #include "core/vtk_file.h"
 #include "core/wall_surface.h"
+#include "shapes/whole_file.h"
 
 namespace scree {
 namespace {
@@ -40,18 +38,6 @@ std::vector<T> repeated(std::vector<T> const& value, std::vector<int> const& cou
   std::vector<T> out;
   for (std::size_t i = 0; i < value.size(); ++i) out.insert(out.end(), static_cast<std::size_t>(count[i]), value[i]);
   return out;
-}
-
-// Replace `file` in one step, so that a reader never sees half of it.
-void write_whole(fs::path const& file, std::string const& text) {
-  fs::path const temporary = file.string() + ".partial";
-  errno = 0;
-  std::ofstream stream(temporary, std::ios::binary);
-  stream << text;
-  stream.close();
-  if (!stream)
-    throw std::system_error(errno ? errno : EIO, std::generic_category(), file.string() + ": cannot be written");
-  fs::rename(temporary, file);
 }
 
 }  // namespace
@@ -177,7 +163,8 @@ void ParaviewWriter::Data::write_collection(char const* name, std::vector<Entry>
       "<Collection>\n";
   for (Entry const& e : entries)
     text += fmt::format("    <DataSet timestep=\"{}\" group=\"\" part=\"{}\" file=\"{}\"/>\n", e.time, e.part, e.file);
-  write_whole(folder / name, text + "  </Collection>\n</VTKFile>\n");
+  // In one step: a reader never sees half of it.
+  write_whole_file(folder / name, text + "  </Collection>\n</VTKFile>\n", true, false);
 }
 
 ParaviewWriter::ParaviewWriter(fs::path const& folder, ResultsHeader const& header, ParaviewOptions const& options)

@@ -4,10 +4,10 @@
 
 #include <png.h>
 
-#include <cerrno>
-#include <fstream>
 #include <stdexcept>
-#include <system_error>
+#include <string>
+
+#include "shapes/whole_file.h"
 
 namespace scree {
 
@@ -31,18 +31,7 @@ std::vector<std::uint8_t> png_bytes(Image const& image) {
 
 void write_png(std::filesystem::path const& file, Image const& image) {
   std::vector<std::uint8_t> const bytes = png_bytes(image);
-  std::filesystem::path temporary = file;
-  temporary += ".part";
-  std::ofstream out(temporary, std::ios::binary);
-  out.write(reinterpret_cast<char const*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  out.close();
-  if (!out) {
-    std::error_code const why(errno, std::generic_category());
-    std::error_code ignored;
-    std::filesystem::remove(temporary, ignored);
-    throw std::system_error(why, file.string() + ": cannot write the picture");
-  }
-  std::filesystem::rename(temporary, file);
+  write_whole_file(file, {bytes.begin(), bytes.end()}, true, false);
 }
 
 }  // namespace scree

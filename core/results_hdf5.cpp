@@ -3,13 +3,12 @@
 #include "core/results_hdf5.h"
 
 #include <algorithm>
-#include <stdexcept>
 
 namespace scree::results_hdf5 {
 namespace {
 
 void require(bool ok, std::string const& what) {
-  if (!ok) throw std::runtime_error(what);
+  if (!ok) throw hdf5::Error(what);
 }
 
 std::string dataset_named(char const* name) { return "dataset '" + std::string(name) + "'"; }
@@ -102,6 +101,7 @@ std::string read_text(hid_t at, char const* name) {
   hdf5::Handle const dataset = open_dataset(at, name);
   hdf5::Handle const type = checked_text_type(dataset, name);
   require(extent_of(dataset, name).empty(), dataset_named(name) + " is not one text");
+  hdf5::require_stored(dataset, name);
   std::string text(H5Tget_size(type), '\0');
   read_raw(dataset, name, type, text.data());
   text.erase(text.find_last_not_of('\0') + 1);
@@ -121,6 +121,7 @@ std::vector<std::string> read_texts(hid_t at, char const* name) {
   hdf5::Handle const dataset = open_dataset(at, name);
   hdf5::Handle const type = checked_text_type(dataset, name);
   std::size_t const width = H5Tget_size(type), count = checked_rows(dataset, name, {});
+  hdf5::require_stored(dataset, name);
   std::string packed(width * count, '\0');
   if (count > 0) read_raw(dataset, name, type, packed.data());
   std::vector<std::string> texts;

@@ -56,6 +56,7 @@ std::vector<T> read_array(hid_t at, char const* name, Extent const& inner = {}) 
   hdf5::Handle const dataset = open_dataset(at, name);
   hsize_t count = checked_rows(dataset, name, inner);
   for (hsize_t const n : inner) count *= n;
+  hdf5::require_stored(dataset, name);
   std::vector<T> value(count);
   if (count > 0) read_raw(dataset, name, Type<T>::memory(), value.data());
   return value;

@@ -1,9 +1,6 @@
 // results_reader.cpp: the results file as render, export and tests read it.
 // SPDX-License-Identifier: Apache-2.0
-#include <unistd.h>
-
 #include <algorithm>
-#include <fstream>
 
 #include "core/case.h"
 #include "core/results.h"
@@ -19,24 +16,9 @@ namespace {
 namespace fs = std::filesystem;
 using results_hdf5::read_array;
 
-// Removes its file when it goes.
-struct TemporaryFile {
-  fs::path path = fs::temp_directory_path() / ("scree-model-" + std::to_string(::getpid()) + ".h5");
-  ~TemporaryFile() {
-    std::error_code ignored;
-    fs::remove(path, ignored);
-  }
-};
-
 Library read_library(hid_t file) {
   if (!hdf5::has_dataset(file, "model")) return {};
-  std::vector<std::uint8_t> const bytes = read_array<std::uint8_t>(file, "model");
-  TemporaryFile const temporary;
-  std::ofstream stream(temporary.path, std::ios::binary);
-  stream.write(reinterpret_cast<char const*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  stream.close();
-  if (!stream) throw std::runtime_error(temporary.path.string() + ": cannot be written");
-  return read_model(temporary.path);
+  return read_model("/model", read_array<std::uint8_t>(file, "model"));
 }
 
 ResultsHeader read_header(hid_t file) {

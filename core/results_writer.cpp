@@ -4,7 +4,6 @@
 #include <iterator>
 #include <optional>
 #include <stdexcept>
-#include <system_error>
 
 #include "core/results.h"
 #include "core/results_hdf5.h"
@@ -109,7 +108,7 @@ struct ResultsWriter::Data {
 
   // After this a killed run loses nothing that was written before.
   void flush() {
-    if (H5Fflush(file, H5F_SCOPE_GLOBAL) < 0) throw std::runtime_error("cannot be flushed; is the disk full?");
+    if (H5Fflush(file, H5F_SCOPE_GLOBAL) < 0) throw hdf5::Error("cannot be written");
   }
 
   // HDF5's and the container's complaints with the file's name, as one type.
@@ -118,12 +117,8 @@ struct ResultsWriter::Data {
     hdf5::QuietErrors const quiet;
     try {
       work();
-    } catch (std::invalid_argument const&) {
-      throw;
-    } catch (std::system_error const&) {
-      throw;
-    } catch (std::exception const& e) {
-      throw std::system_error(std::make_error_code(std::errc::io_error), final_name.string() + ": " + e.what());
+    } catch (std::runtime_error const&) {
+      hdf5::rethrow_as_write_error(final_name.string());
     }
   }
 };
@@ -133,10 +128,8 @@ ResultsWriter::ResultsWriter(fs::path const& file, ResultsHeader const& header) 
   hdf5::QuietErrors const quiet;
   try {
     data_ = std::make_unique<Data>(file, header);
-  } catch (std::system_error const&) {
-    throw;
-  } catch (std::exception const& e) {
-    throw std::system_error(std::make_error_code(std::errc::io_error), file.string() + ": " + e.what());
+  } catch (std::runtime_error const&) {
+    hdf5::rethrow_as_write_error(file.string());
   }
 }
 
@@ -220,7 +213,7 @@ void ResultsWriter::finish(std::vector<StageRow> const& stages) {
     d.wall_position.reset();
     d.wall_orientation.reset();
     d.frames = {};
-    d.file.close("cannot be written; is the disk full?");
+    d.file.close("cannot be written");
     seal_container(d.temporary, d.final_name, results_layout::kind, results_layout::version);
   });
 }

@@ -6,11 +6,10 @@
 #include <zlib.h>
 
 #include <bit>
-#include <cerrno>
 #include <cstring>
-#include <fstream>
 #include <stdexcept>
-#include <system_error>
+
+#include "shapes/whole_file.h"
 
 namespace scree {
 namespace {
@@ -127,13 +126,7 @@ void write_vtp(std::filesystem::path const& file, VtkPolyData const& data) {
   document.section("Verts", vertex_cells(data.vertices ? data.point.size() : 0));
   document.section("Polys", polygon_cells(data));
   document.text("    </Piece>\n  </PolyData>\n");
-  std::string const bytes = document.finish();
-  errno = 0;
-  std::ofstream stream(file, std::ios::binary);
-  stream.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  stream.close();
-  if (!stream)
-    throw std::system_error(errno ? errno : EIO, std::generic_category(), file.string() + ": cannot be written");
+  write_whole_file(file, document.finish(), true, false);
 }
 
 }  // namespace scree

@@ -7,11 +7,13 @@
 #include <unistd.h>
 #include <zlib.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cerrno>
 #include <cstddef>
 #include <cstring>
+#include <functional>
 #include <stdexcept>
 #include <system_error>
 #include <vector>
@@ -78,13 +80,16 @@ class File {
 
 using Header = std::array<char, container_block_size>;
 
+// Reads up to so many bytes that follow; fewer only at the end.
+using ReadMore = std::function<std::size_t(char* to, std::size_t count)>;
+
 // CRC over the header (its crc32 field taken as zero) and everything that follows; also counts what follows.
-std::uint32_t checksum(File& file, Header header, std::uint64_t& payload_length) {
+std::uint32_t checksum(ReadMore const& read, Header header, std::uint64_t& payload_length) {
   std::memset(header.data() + offsetof(UserBlock, crc32), 0, sizeof(UserBlock::crc32));
   uLong crc = ::crc32(0, reinterpret_cast<Bytef const*>(header.data()), header.size());
   std::vector<char> buffer(1 << 18);
   payload_length = 0;
-  while (std::size_t const n = file.read(buffer.data(), buffer.size())) {
+  while (std::size_t const n = read(buffer.data(), buffer.size())) {
     crc = ::crc32(crc, reinterpret_cast<Bytef const*>(buffer.data()), static_cast<uInt>(n));
     payload_length += n;
   }
@@ -94,6 +99,32 @@ std::uint32_t checksum(File& file, Header header, std::uint64_t& payload_length)
 void sync_folder(std::filesystem::path const& file) {
   std::filesystem::path const folder = file.has_parent_path() ? file.parent_path() : ".";
   File(folder, O_RDONLY | O_DIRECTORY).sync();
+}
+
+void check_content(std::string const& name, ReadMore const& read, std::string const& kind, std::uint32_t max_version) {
+  auto const refuse = [&](std::string const& what) { throw std::runtime_error(name + ": " + what); };
+  Header bytes{};
+  std::size_t const got = read(bytes.data(), bytes.size());
+  if (got == 0) refuse("is empty; make or fetch it again");
+  UserBlock block;
+  std::memcpy(&block, bytes.data(), sizeof(block));
+  if (got < sizeof(block) || block.magic != magic) refuse("is not a Scree file; a \"" + kind + "\" file is needed");
+  block.kind.back() = '\0';
+  std::string const found = block.kind.data();
+  if (got < bytes.size())
+    refuse("is cut short inside its first " + std::to_string(bytes.size()) + " bytes; fetch it again");
+  std::uint64_t length = 0;
+  std::uint32_t const crc = checksum(read, bytes, length);
+  // A kind or version that the checksum vouches for is a mix-up; otherwise the file is damaged.
+  bool const intact = crc == block.crc32 && length == block.payload_length;
+  if (intact && found != kind) refuse("is a \"" + found + "\" file; a \"" + kind + "\" file is needed");
+  if (intact && block.version > max_version)
+    refuse("has format version " + std::to_string(block.version) + ", this program reads up to " +
+           std::to_string(max_version) + "; use a newer Scree");
+  if (length < block.payload_length)
+    refuse("is cut short: " + std::to_string(length) + " of " + std::to_string(block.payload_length) +
+           " bytes after the header; fetch it again");
+  if (!intact) refuse("is damaged (its checksum does not match); fetch or make it again");
 }
 
 }  // namespace
@@ -116,47 +147,40 @@ void seal_container(std::filesystem::path const& temporary, std::filesystem::pat
     bytes.fill(0);
     std::memcpy(bytes.data(), &block, sizeof(block));
     std::uint64_t length = 0;
-    block.crc32 = checksum(file, bytes, length);
+    block.crc32 = checksum([&](char* to, std::size_t count) { return file.read(to, count); }, bytes, length);
     std::memcpy(bytes.data(), &block, sizeof(block));
     file.write_at_start(bytes.data(), bytes.size());
     file.sync();
   }
   std::error_code error;
+  std::filesystem::file_status const old = std::filesystem::status(final_name, error);
+  if (std::filesystem::exists(old) && !std::filesystem::is_regular_file(old))  // a device, say
+    throw std::system_error(EINVAL, std::generic_category(), final_name.string() + ": is no ordinary file");
   std::filesystem::rename(temporary, final_name, error);
   if (error) throw std::system_error(error, final_name.string() + ": cannot be put in place of the old file");
   sync_folder(final_name);
 }
 
 void check_container(std::filesystem::path const& file_name, std::string const& kind, std::uint32_t max_version) {
-  std::string const name = file_name.string();
-  auto const refuse = [&](std::string const& what) { throw std::runtime_error(name + ": " + what); };
+  auto const refuse = [&](char const* what) { throw std::runtime_error(file_name.string() + what); };
   std::error_code error;
   std::filesystem::file_status const status = std::filesystem::status(file_name, error);
-  if (status.type() == std::filesystem::file_type::not_found) refuse("no such file; check the path");
-  if (status.type() == std::filesystem::file_type::directory) refuse("is a folder; name the file inside it");
+  if (status.type() == std::filesystem::file_type::not_found) refuse(": no such file; check the path");
+  if (status.type() == std::filesystem::file_type::directory) refuse(": is a folder; name the file inside it");
   File file(file_name, O_RDONLY);
-  Header bytes{};
-  std::size_t const got = file.read(bytes.data(), bytes.size());
-  if (got == 0) refuse("is empty; make or fetch it again");
-  UserBlock block;
-  std::memcpy(&block, bytes.data(), sizeof(block));
-  if (got < sizeof(block) || block.magic != magic) refuse("is not a Scree file; a \"" + kind + "\" file is needed");
-  block.kind.back() = '\0';
-  std::string const found = block.kind.data();
-  if (got < bytes.size())
-    refuse("is cut short inside its first " + std::to_string(bytes.size()) + " bytes; fetch it again");
-  std::uint64_t length = 0;
-  std::uint32_t const crc = checksum(file, bytes, length);
-  // A kind or version that the checksum vouches for is a mix-up; otherwise the file is damaged.
-  bool const intact = crc == block.crc32 && length == block.payload_length;
-  if (intact && found != kind) refuse("is a \"" + found + "\" file; a \"" + kind + "\" file is needed");
-  if (intact && block.version > max_version)
-    refuse("has format version " + std::to_string(block.version) + ", this program reads up to " +
-           std::to_string(max_version) + "; use a newer Scree");
-  if (length < block.payload_length)
-    refuse("is cut short: " + std::to_string(length) + " of " + std::to_string(block.payload_length) +
-           " bytes after the header; fetch it again");
-  if (!intact) refuse("is damaged (its checksum does not match); fetch or make it again");
+  check_content(
+      file_name.string(), [&](char* to, std::size_t count) { return file.read(to, count); }, kind, max_version);
+}
+
+void check_container(std::string const& name, std::span<std::uint8_t const> bytes, std::string const& kind,
+                     std::uint32_t max_version) {
+  auto const read = [&](char* to, std::size_t count) {
+    std::size_t const n = std::min(count, bytes.size());
+    if (n > 0) std::memcpy(to, bytes.data(), n);
+    bytes = bytes.subspan(n);
+    return n;
+  };
+  check_content(name, read, kind, max_version);
 }
 
 }  // namespace scree

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 
 namespace scree {
@@ -18,5 +19,8 @@ void seal_container(std::filesystem::path const& temporary, std::filesystem::pat
 
 // Check magic, kind, version, length and CRC. Throws std::runtime_error: "<file>: what is wrong; way out".
 void check_container(std::filesystem::path const& file, std::string const& kind, std::uint32_t max_version);
+// The same of a file's bytes; `name` begins the messages.
+void check_container(std::string const& name, std::span<std::uint8_t const> bytes, std::string const& kind,
+                     std::uint32_t max_version);
 
 }  // namespace scree

@@ -3,7 +3,10 @@
 #include "shapes/hdf5_handle.h"
 
 #include <algorithm>
-#include <stdexcept>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <system_error>
 
 #include "shapes/file_container.h"
 
@@ -13,8 +16,12 @@ namespace {
 std::string quoted(char const* name) { return "'" + std::string(name) + "'"; }
 
 void require(bool ok, std::string const& what) {
-  if (!ok) throw std::runtime_error(what);
+  if (!ok) throw Error(what);
 }
+
+// A file that cannot be written (full disk) cannot be closed either; HDF5 then tries again when the process exits, and
+// crashes. We close every file by ourselves. Takes effect when it comes before the first use of HDF5.
+[[maybe_unused]] bool const left_alone_at_exit = H5dont_atexit() >= 0;
 
 hsize_t constexpr largest_array = 1 << 26;  // numbers; far above any file of ours, far below what would exhaust memory
 
@@ -44,7 +51,9 @@ Handle::Handle(hid_t id, herr_t (*close)(hid_t), std::string const& what) : id_(
   require(id >= 0, what);
 }
 Handle::~Handle() {
-  if (id_ >= 0) close_(id_);
+  if (id_ < 0) return;
+  QuietErrors const quiet;  // the exception that brought us here has said it
+  close_(id_);
 }
 Handle& Handle::operator=(Handle&& other) noexcept {
   std::swap(id_, other.id_);
@@ -63,6 +72,27 @@ QuietErrors::QuietErrors() {
 }
 QuietErrors::~QuietErrors() { H5Eset_auto2(H5E_DEFAULT, function_, data_); }
 
+Error::Error(std::string const& what) : std::runtime_error(what), system_(0) {
+  // Only the entry of the file driver has it: "..., errno = 28, error message = 'No space left on device', ...".
+  auto const visit = [](unsigned, H5E_error2_t const* entry, void* out) -> herr_t {
+    char const* const at = entry->desc ? std::strstr(entry->desc, "errno = ") : nullptr;
+    if (at) std::sscanf(at, "errno = %d", static_cast<int*>(out));
+    return 0;
+  };
+  H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, visit, &system_);
+}
+
+void rethrow_as_write_error(std::string const& file) {
+  try {
+    throw;
+  } catch (std::system_error const& e) {
+    if (std::string(e.what()).starts_with(file)) throw;  // a temporary file's name begins like it, too
+    throw std::system_error(e.code(), file);
+  } catch (Error const& e) {
+    throw std::system_error(e.system() ? e.system() : EIO, std::generic_category(), file + ": " + e.what());
+  }
+}
+
 Handle create_file(std::string const& file) {
   Handle const creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose, "cannot set up a file");
   require(H5Pset_userblock(creation, container_block_size) >= 0, "cannot reserve the user block");
@@ -75,6 +105,13 @@ Handle create_file(std::string const& file) {
 
 Handle open_file(std::string const& file) {
   return {H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, "HDF5 cannot open it"};
+}
+
+Handle open_image(void const* bytes, std::size_t size, bool writable) {
+  Handle const access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "cannot set up a file");
+  require(H5Pset_fapl_core(access, 1 << 16, 0) >= 0 && H5Pset_file_image(access, const_cast<void*>(bytes), size) >= 0,
+          "cannot set up a file in memory");
+  return {H5Fopen("in memory", writable ? H5F_ACC_RDWR : H5F_ACC_RDONLY, access), H5Fclose, "HDF5 cannot open it"};
 }
 
 Handle create_group(hid_t file, std::string const& path) {
@@ -90,6 +127,11 @@ bool has_group(hid_t file, std::string const& path) {
   if (H5Lexists(file, path.c_str(), H5P_DEFAULT) <= 0) return false;
   H5O_info_t info;
   return H5Oget_info_by_name(file, path.c_str(), &info, H5P_DEFAULT) >= 0 && info.type == H5O_TYPE_GROUP;
+}
+haddr_t address(hid_t group) {
+  H5O_info_t info;
+  require(H5Oget_info2(group, &info, H5O_INFO_BASIC) >= 0, "cannot read a group");
+  return info.addr;
 }
 std::vector<std::string> group_names(hid_t group) {
   std::vector<std::string> names;
@@ -200,6 +242,14 @@ bool has_dataset(hid_t at, char const* name) {
   H5O_info_t info;
   return H5Oget_info_by_name(at, name, &info, H5P_DEFAULT) >= 0 && info.type == H5O_TYPE_DATASET;
 }
+void require_stored(hid_t dataset, char const* name) {
+  Handle const type(H5Dget_type(dataset), H5Tclose, "cannot read the type of dataset " + quoted(name));
+  Handle const space(H5Dget_space(dataset), H5Sclose, "cannot read the size of dataset " + quoted(name));
+  hssize_t const count = H5Sget_simple_extent_npoints(space);
+  hsize_t const stored = H5Dget_storage_size(dataset) / std::max<std::size_t>(H5Tget_size(type), 1);
+  require(count >= 0 && static_cast<hsize_t>(count) <= stored,
+          "dataset " + quoted(name) + " promises more than it holds");
+}
 template <class T>
 Table<T> read_table(hid_t at, char const* name, int rank) {
   require(has_dataset(at, name), "dataset " + quoted(name) + " is missing");
@@ -214,6 +264,7 @@ Table<T> read_table(hid_t at, char const* name, int rank) {
   H5Sget_simple_extent_dims(space, dimension, nullptr);
   require(dimension[0] < largest_array && dimension[1] < largest_array && dimension[0] * dimension[1] < largest_array,
           "dataset " + quoted(name) + " is too large");
+  require_stored(dataset, name);
   Table<T> array;
   array.rows = static_cast<int>(dimension[0]);
   array.columns = rank == 2 ? static_cast<int>(dimension[1]) : -1;

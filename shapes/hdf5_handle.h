@@ -1,11 +1,12 @@
 // hdf5_handle.h: ownership of HDF5 identifiers, and the few reads and writes our files are made of.
-// Every function throws std::runtime_error naming the object; file names are added by the caller.
+// Every function throws Error, a std::runtime_error, naming the object; file names are added by the caller.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <hdf5.h>
 
 #include <cstdint>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -41,14 +42,30 @@ class QuietErrors {
   void* data_ = nullptr;
 };
 
+// What HDF5 refused, and the system's reason for it (errno; 0: none known). All functions here throw it.
+class Error : public std::runtime_error {
+ public:
+  explicit Error(std::string const& what);
+  int system() const { return system_; }
+
+ private:
+  int system_;
+};
+
+// In a handler of whatever went wrong while `file` was written: throws std::system_error with its name and the cause.
+[[noreturn]] void rethrow_as_write_error(std::string const& file);
+
 // A new file whose first 512 bytes belong to the container (file_container.h); an existing file that passed its check.
 Handle create_file(std::string const& file);
 Handle open_file(std::string const& file);
+// A file's bytes, copied; what is written into it stays in memory.
+Handle open_image(void const* bytes, std::size_t size, bool writable = false);
 
 // Groups by path; create_group makes the missing parents too and opens what exists.
 Handle create_group(hid_t file, std::string const& path);
 Handle open_group(hid_t file, std::string const& path);
 bool has_group(hid_t file, std::string const& path);
+haddr_t address(hid_t group);                       // in the file: the same group by whatever name
 std::vector<std::string> group_names(hid_t group);  // child groups, in alphabetical order
 
 // Attributes. Reads demand the count (or any count where it is -1); numbers are stored little-endian.
@@ -72,6 +89,8 @@ void write_table(hid_t at, char const* name, Table<T> const& array);
 template <class T>
 Table<T> read_table(hid_t at, char const* name, int rank);
 bool has_dataset(hid_t at, char const* name);
+// The file holds as many bytes as the dataset promises: sizes that lie must not ask for memory.
+void require_stored(hid_t dataset, char const* name);
 
 using FloatArray = Table<float>;
 inline void write_floats(hid_t at, char const* name, FloatArray const& array) { write_table(at, name, array); }

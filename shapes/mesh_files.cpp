@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shapes/mesh_files.h"
 
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <string>
@@ -11,6 +12,7 @@
 #include "shapes/ply_file.h"
 #include "shapes/stl_file.h"
 #include "shapes/text_lines.h"
+#include "shapes/whole_file.h"
 
 namespace scree {
 namespace {
@@ -47,10 +49,16 @@ TriangleMesh weld(TriangleMesh const& soup) {
   return mesh;
 }
 
+void check_coordinates(std::filesystem::path const& file, TriangleMesh const& mesh) {
+  for (Vec3 const& v : mesh.vertex)
+    for (int k = 0; k < 3; ++k)
+      if (!(std::abs(v[k]) <= largest_coordinate)) fail_file(file, "a coordinate is beyond 1e60");
+}
+
 TriangleMesh read_mesh(std::filesystem::path const& file) {
   std::string const extension = lower_extension(file);
   if (!is_mesh_file(file)) fail_file(file, "unknown mesh format; .stl, .obj and .ply are read");
-  std::string const bytes = read_bytes(file);
+  std::string const bytes = read_whole_file(file);
   TriangleMesh mesh;
   if (extension == ".stl") mesh = parse_stl(file, bytes);
   if (extension == ".obj") mesh = parse_obj(file, bytes);
@@ -59,6 +67,7 @@ TriangleMesh read_mesh(std::filesystem::path const& file) {
     mesh = {std::move(ply.vertex), std::move(ply.triangle)};
   }
   mesh = weld(mesh);
+  check_coordinates(file, mesh);
   if (mesh.triangle.empty()) fail_file(file, "has no triangles");
   return mesh;
 }
@@ -66,9 +75,10 @@ TriangleMesh read_mesh(std::filesystem::path const& file) {
 void write_mesh(std::filesystem::path const& file, TriangleMesh const& mesh) {
   std::string const extension = lower_extension(file);
   if (!is_mesh_file(file)) fail_file(file, "unknown mesh format; .stl, .obj and .ply are written");
-  write_bytes(file, extension == ".stl"   ? stl_bytes(mesh)
-                    : extension == ".obj" ? obj_text(mesh)
-                                          : ply_bytes(mesh.vertex, {}, mesh.triangle));
+  std::string const bytes = extension == ".stl"   ? stl_bytes(mesh)
+                            : extension == ".obj" ? obj_text(mesh)
+                                                  : ply_bytes(mesh.vertex, {}, mesh.triangle);
+  write_whole_file(file, bytes, true, false);
 }
 
 bool is_mesh_file(std::filesystem::path const& file) {

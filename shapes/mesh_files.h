@@ -14,6 +14,11 @@ namespace scree {
 // <n>: ...") for anything unreadable, non-finite, out of range, or a length that is not what the header promises.
 TriangleMesh read_mesh(std::filesystem::path const& file);
 
+// Of a mesh in a MeshTree: areas and their squares stay far from the end of a double's range.
+double constexpr largest_coordinate = 1e60;
+// Throws std::runtime_error naming the file for a coordinate beyond it.
+void check_coordinates(std::filesystem::path const& file, TriangleMesh const& mesh);
+
 // Write by extension: .stl (binary), .obj or .ply (binary). Throws std::runtime_error naming the file.
 void write_mesh(std::filesystem::path const& file, TriangleMesh const& mesh);
 

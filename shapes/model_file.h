@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <span>
+#include <string>
 
 #include "shapes/shape.h"
 
@@ -14,5 +17,7 @@ void write_model(std::filesystem::path const& file, Library const& library, bool
 // Throws std::runtime_error: missing, truncated, damaged, wrong kind or version, NaN weights (names the shape or
 // layer).
 Library read_model(std::filesystem::path const& file);
+// The same of a file's bytes; `name` begins the messages.
+Library read_model(std::string const& name, std::span<std::uint8_t const> bytes);
 
 }  // namespace scree

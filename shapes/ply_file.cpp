@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
 #include <cstring>
 #include <string_view>
 
@@ -15,6 +16,13 @@ namespace scree {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "binary PLY is read and written as little-endian");
+
+// Damaged files have integers beyond every integer type.
+std::string digits_of(double value) {
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.17g", value);
+  return text;
+}
 
 // The body's values in order, as doubles (exact for every PLY type). Knows where it is, for complaints.
 class PlyValues {
@@ -48,7 +56,7 @@ class PlyValues {
     double const length = value(type);
     // Each item takes a byte or more: a damaged length must not ask for memory.
     if (length < 0 || length > static_cast<double>(bytes_.size()))
-      fail("a list of " + std::to_string(static_cast<long>(length)) + " items does not fit the file");
+      fail("a list of " + digits_of(length) + " items does not fit the file");
     return static_cast<int>(length);
   }
 
@@ -154,8 +162,7 @@ void add_face(PlyValues const& values, std::vector<double> const& index, std::si
   if (index.size() < 3) values.fail("a face needs three corners");
   for (double i : index)
     if (i < 0 || i >= static_cast<double>(vertices))
-      values.fail("vertex " + std::to_string(static_cast<long>(i)) + " does not exist (there are " +
-                  std::to_string(vertices) + ", from 0)");
+      values.fail("vertex " + digits_of(i) + " does not exist (there are " + std::to_string(vertices) + ", from 0)");
   for (std::size_t k = 2; k < index.size(); ++k)
     content.triangle.push_back(
         {static_cast<int>(index[0]), static_cast<int>(index[k - 1]), static_cast<int>(index[k])});

@@ -111,6 +111,9 @@ PlyHeader parse_ply_header(std::filesystem::path const& file, std::string const&
       if (header.element.empty()) fail_file(file, line, "a property before the first element");
       header.element.back().property.push_back(parse_property(file, line, w));
     } else if (w[0] == "end_header") {
+      // Rows of nothing take no bytes: a damaged count of them would take hours.
+      for (PlyElement const& e : header.element)
+        if (e.count > 0 && e.property.empty()) fail_file(file, line, "element '" + e.name + "' has no properties");
       if (!has_format) fail_file(file, line, "the PLY header names no format");
       return header;
     } else {

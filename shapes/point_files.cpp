@@ -8,6 +8,7 @@
 #include "shapes/ply_file.h"
 #include "shapes/ply_header.h"
 #include "shapes/text_lines.h"
+#include "shapes/whole_file.h"
 
 namespace scree {
 namespace {
@@ -45,7 +46,7 @@ std::string xyz_text(PointCloud const& cloud) {
 PointCloud read_points(std::filesystem::path const& file) {
   std::string const extension = lower_extension(file);
   if (extension != ".ply" && extension != ".xyz") fail_file(file, "unknown point format; .ply and .xyz are read");
-  std::string const bytes = read_bytes(file);
+  std::string const bytes = read_whole_file(file);
   PointCloud cloud;
   if (extension == ".xyz") {
     cloud = parse_xyz(file, bytes);
@@ -64,13 +65,14 @@ PointCloud read_points(std::filesystem::path const& file) {
 void write_points(std::filesystem::path const& file, PointCloud const& cloud) {
   std::string const extension = lower_extension(file);
   if (extension != ".ply" && extension != ".xyz") fail_file(file, "unknown point format; .ply and .xyz are written");
-  write_bytes(file, extension == ".xyz" ? xyz_text(cloud) : ply_bytes(cloud.position, cloud.normal, {}));
+  write_whole_file(file, extension == ".xyz" ? xyz_text(cloud) : ply_bytes(cloud.position, cloud.normal, {}), true,
+                   false);
 }
 
 bool holds_points(std::filesystem::path const& file) {
   std::string const extension = lower_extension(file);
   if (extension != ".ply") return extension == ".xyz";
-  PlyHeader const header = parse_ply_header(file, read_bytes(file));
+  PlyHeader const header = parse_ply_header(file, read_whole_file(file));
   PlyElement const* const face = header.find("face");
   return !face || face->count == 0;
 }

@@ -34,7 +34,7 @@ TriangleMesh parse_binary(std::filesystem::path const& file, std::string const& 
 TriangleMesh parse_ascii(std::filesystem::path const& file, std::string const& text) {
   TriangleMesh soup;
   int corners = 0, last_line = 0;
-  bool in_facet = false;
+  bool in_facet = false, in_solid = false;
   for_each_line(text, [&](int line, std::vector<std::string_view> const& w) {
     last_line = line;
     if (w[0] == "facet") {
@@ -51,11 +51,14 @@ TriangleMesh parse_ascii(std::filesystem::path const& file, std::string const& t
       in_facet = false;
       int const n = static_cast<int>(soup.vertex.size());
       soup.triangle.push_back({n - 3, n - 2, n - 1});
-    } else if (w[0] != "solid" && w[0] != "endsolid" && w[0] != "outer" && w[0] != "endloop") {
+    } else if (w[0] == "solid" || w[0] == "endsolid") {
+      in_solid = w[0] == "solid";
+    } else if (w[0] != "outer" && w[0] != "endloop") {
       fail_file(file, line, "unknown word: " + std::string(w[0]));
     }
   });
   if (in_facet) fail_file(file, last_line, "the file ends inside a facet");
+  if (in_solid) fail_file(file, last_line, "the file ends before endsolid: it is cut short");
   return soup;
 }
 

@@ -8,7 +8,9 @@
 #include <string>
 #include <utility>
 
+#include "shapes/mesh_files.h"
 #include "shapes/text_lines.h"
+#include "shapes/whole_file.h"
 
 namespace scree {
 namespace {
@@ -43,9 +45,8 @@ void read_header(std::filesystem::path const& file, int line, std::string const&
   grid.cell = value;
 }
 
-Grid read_grid(std::filesystem::path const& file) {
+Grid read_grid(std::filesystem::path const& file, std::string const& text) {
   Grid grid;
-  std::string const text = read_bytes(file);
   int last = 1;
   for_each_line(text, [&](int line, std::vector<std::string_view> const& word) {
     last = line;
@@ -71,8 +72,10 @@ Grid read_grid(std::filesystem::path const& file) {
 
 }  // namespace
 
-TriangleMesh read_terrain(std::filesystem::path const& file) {
-  Grid const grid = read_grid(file);
+TriangleMesh read_terrain(std::filesystem::path const& file) { return parse_terrain(file, read_whole_file(file)); }
+
+TriangleMesh parse_terrain(std::filesystem::path const& file, std::string const& text) {
+  Grid const grid = read_grid(file, text);
   TriangleMesh mesh;
   std::vector<int> vertex(grid.value.size(), -1);
   auto const at = [&](int column, int row) {  // row 0 is the southernmost
@@ -96,6 +99,7 @@ TriangleMesh read_terrain(std::filesystem::path const& file) {
       else
         mesh.triangle.insert(mesh.triangle.end(), {{a, b, d}, {b, e, d}});
     }
+  check_coordinates(file, mesh);
   if (mesh.triangle.empty()) fail_file(file, "no four neighbouring values have data: there is no surface");
   return mesh;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "shapes/triangle_mesh.h"
 
@@ -14,5 +15,7 @@ namespace scree {
 // leave holes. Throws std::runtime_error "<file>:<line>: ..." for anything that is not such a grid, and for one without
 // a whole cell.
 TriangleMesh read_terrain(std::filesystem::path const& file);
+// The same of a file's text; `file` is for messages.
+TriangleMesh parse_terrain(std::filesystem::path const& file, std::string const& text);
 
 }  // namespace scree

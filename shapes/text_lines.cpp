@@ -5,7 +5,6 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <stdexcept>
 
 namespace scree {
@@ -15,24 +14,6 @@ void fail_file(std::filesystem::path const& file, std::string const& what) {
 }
 void fail_file(std::filesystem::path const& file, int line, std::string const& what) {
   throw std::runtime_error(file.string() + ":" + std::to_string(line) + ": " + what);
-}
-
-std::string read_bytes(std::filesystem::path const& file) {
-  if (!std::filesystem::exists(file)) fail_file(file, "no such file");
-  if (std::filesystem::is_directory(file)) fail_file(file, "is a folder");
-  std::ifstream in(file, std::ios::binary);
-  if (!in) fail_file(file, "cannot be opened");
-  std::string bytes(std::filesystem::file_size(file), '\0');
-  in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  if (in.gcount() != static_cast<std::streamsize>(bytes.size())) fail_file(file, "cannot be read");
-  return bytes;
-}
-
-void write_bytes(std::filesystem::path const& file, std::string const& bytes) {
-  std::ofstream out(file, std::ios::binary);
-  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  out.flush();
-  if (!out) fail_file(file, "cannot be written");
 }
 
 std::string lower_extension(std::filesystem::path const& file) {

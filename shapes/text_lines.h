@@ -1,5 +1,4 @@
-// text_lines.h: geometry files as text: whole-file reading, lines cut into words, numbers, complaints with file and
-// line.
+// text_lines.h: geometry files as text: lines cut into words, numbers, complaints with file and line.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -16,10 +15,6 @@ namespace scree {
 // Throw std::runtime_error "<file>: what" or "<file>:<line>: what".
 [[noreturn]] void fail_file(std::filesystem::path const& file, std::string const& what);
 [[noreturn]] void fail_file(std::filesystem::path const& file, int line, std::string const& what);
-
-// The bytes of a file, and back; both complain as above.
-std::string read_bytes(std::filesystem::path const& file);
-void write_bytes(std::filesystem::path const& file, std::string const& bytes);
 
 // ".STL" of "a.STL" as ".stl".
 std::string lower_extension(std::filesystem::path const& file);

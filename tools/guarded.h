@@ -22,7 +22,9 @@ inline int guarded(char const* program, std::function<int()> const& work) {
     return code;
   };
   try {
-    return work();
+    int const code = work();
+    if (std::fflush(stdout) == 0 && !std::ferror(stdout)) return code;
+    return code != exit_ok ? code : complain(exit_file, "standard output: cannot be written; is the disk full?");
   } catch (std::invalid_argument const& error) {
     return complain(exit_bad_input, error.what());
   } catch (std::exception const& error) {

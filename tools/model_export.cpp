@@ -14,8 +14,8 @@
 
 #include "shapes/exchange/onnx_file.h"
 #include "shapes/exchange/safetensors_model.h"
-#include "shapes/exchange/whole_file.h"
 #include "shapes/model_file.h"
+#include "shapes/whole_file.h"
 #include "tools/guarded.h"
 #include "tools/shape_input.h"
 

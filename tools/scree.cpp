@@ -206,7 +206,9 @@ int complain(InputError const& error) {
 // The one place where failures become exit codes.
 int guarded(std::function<int()> const& work) {
   try {
-    return work();
+    int const code = work();
+    if (std::fflush(stdout) == 0 && !std::ferror(stdout)) return code;
+    return code != exit_ok ? code : complain(exit_file, "standard output: cannot be written; is the disk full?");
   } catch (InputError const& error) {
     return complain(error);
   } catch (DeviceError const& error) {

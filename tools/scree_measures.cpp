@@ -4,18 +4,17 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
-#include <system_error>
+#include <algorithm>
 
 namespace scree {
 
 namespace {
 
-// Opens a new file with its first line, or cuts an old one where it was at the checkpoint.
-void open_csv(std::filesystem::path const& file, std::int64_t const* keep, char const* columns, std::ofstream& stream) {
-  if (keep) std::filesystem::resize_file(file, static_cast<std::uintmax_t>(*keep));
-  stream.open(file, keep ? std::ios::binary | std::ios::app : std::ios::binary | std::ios::out);
-  if (!keep) stream << columns;
+// A new file with its first line, or an old one cut where it was at the checkpoint.
+AppendedFile open_csv(std::filesystem::path const& file, std::int64_t const* keep, char const* columns) {
+  AppendedFile out(file, keep ? *keep : 0);
+  if (!keep) out.append(columns);
+  return out;
 }
 
 }  // namespace
@@ -27,29 +26,16 @@ MeasureLog::MeasureLog(OutputFolder const& folder, Case const& c, Simulation con
     prefix_.push_back("," + c.measure[k].name + ",");
     quantities_.push_back(simulation.measure_quantities(static_cast<int>(k)));
   }
-  open_csv(folder.file("measures.csv"), earlier ? &earlier->measures_bytes : nullptr, "time,name,quantity,value\n",
-           file_);
-  for (MeasureCase const& m : c.measure)
-    if (m.contacts && !contacts_.is_open()) {
-      open_csv(folder.file("contacts.csv"), earlier ? &earlier->contacts_bytes : nullptr,
-               "time,name,a,b,x,y,z,fx,fy,fz\n", contacts_);
-    }
+  file_ =
+      open_csv(folder.file("measures.csv"), earlier ? &earlier->measures_bytes : nullptr, "time,name,quantity,value\n");
+  if (std::any_of(c.measure.begin(), c.measure.end(), [](MeasureCase const& m) { return m.contacts; }))
+    contacts_ = open_csv(folder.file("contacts.csv"), earlier ? &earlier->contacts_bytes : nullptr,
+                         "time,name,a,b,x,y,z,fx,fy,fz\n");
 }
 
-void MeasureLog::note_sizes(OutputProgress& out) {
-  if (on_schedule_) {
-    out.measures_bytes = on_schedule_->measures_bytes;
-    out.contacts_bytes = on_schedule_->contacts_bytes;
-    return;
-  }
-  // A stream that appends knows its place after the first write only.
-  auto const size = [](std::ofstream& stream) {
-    if (!stream.is_open()) return std::int64_t{0};
-    stream.seekp(0, std::ios::end);
-    return static_cast<std::int64_t>(stream.tellp());
-  };
-  out.measures_bytes = size(file_);
-  out.contacts_bytes = size(contacts_);
+void MeasureLog::note_sizes(OutputProgress& out) const {
+  out.measures_bytes = on_schedule_ ? on_schedule_->measures_bytes : file_.size();
+  out.contacts_bytes = on_schedule_ ? on_schedule_->contacts_bytes : contacts_.size();
 }
 
 void MeasureLog::write(Simulation& simulation) {
@@ -61,19 +47,17 @@ void MeasureLog::write(Simulation& simulation) {
       note_sizes(sizes);
       on_schedule_ = sizes;
     }
+    std::string values, contacts;
     for (std::size_t q = 0; q < row.value.size(); ++q)
-      file_ << fmt::format("{:.9g}{}{},{:.9g}\n", row.time, prefix_[row.measure], quantities_[row.measure][q].name,
-                           row.value[q]);
+      values += fmt::format("{:.9g}{}{},{:.9g}\n", row.time, prefix_[row.measure], quantities_[row.measure][q].name,
+                            row.value[q]);
     for (ContactRow const& k : row.contact)
-      contacts_ << fmt::format("{:.9g}{}{},{},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g}\n", row.time,
-                               prefix_[row.measure], k.a, k.b, k.point.x, k.point.y, k.point.z, k.force.x, k.force.y,
-                               k.force.z);
+      contacts +=
+          fmt::format("{:.9g}{}{},{},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g}\n", row.time, prefix_[row.measure], k.a,
+                      k.b, k.point.x, k.point.y, k.point.z, k.force.x, k.force.y, k.force.z);
+    file_.append(values);
+    if (contacts_.is_open()) contacts_.append(contacts);
   }
-  if (rows.empty()) return;
-  file_ << std::flush;
-  if (contacts_.is_open()) contacts_ << std::flush;
-  if (!contacts_) throw std::system_error(EIO, std::generic_category(), "contacts.csv: cannot be written");
-  if (!file_) throw std::system_error(EIO, std::generic_category(), "measures.csv: cannot be written");
 }
 
 std::string figures_csv(std::vector<MeasureSummary> const& measures) {

@@ -3,11 +3,11 @@
 #pragma once
 
 #include <filesystem>
-#include <fstream>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "core/appended_file.h"
 #include "core/checkpoint.h"
 #include "core/expected_figures.h"
 #include "core/simulation.h"
@@ -21,13 +21,13 @@ class MeasureLog {
  public:
   // `earlier`: go on behind what a checkpoint has noted; null: new files. Throws std::system_error.
   MeasureLog(OutputFolder const& folder, Case const& c, Simulation const& simulation, OutputProgress const* earlier);
-  void write(Simulation& simulation);    // the samples taken since the last call
-  void note_sizes(OutputProgress& out);  // of the files, without samples that were taken because the run ends
+  void write(Simulation& simulation);          // the samples taken since the last call
+  void note_sizes(OutputProgress& out) const;  // of the files, without samples that were taken because the run ends
 
  private:
   std::vector<std::string> prefix_;                // ",name," of each measure
   std::vector<std::vector<Quantity>> quantities_;  // ... and what it gives
-  std::ofstream file_, contacts_;
+  AppendedFile file_, contacts_;
   std::optional<OutputProgress> on_schedule_;
 };
 

@@ -6,27 +6,22 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <system_error>
 
 #include "kernels/base/build_info.h"
 #include "kernels/sdf/sdf_batch.h"
 
 namespace scree {
 
-RunLog::RunLog(std::filesystem::path const& file, bool append) : file_(file, append ? std::ios::app : std::ios::out) {
-  if (!file_)
-    throw std::system_error(errno ? errno : EIO, std::generic_category(), file.string() + ": cannot be written");
-}
+RunLog::RunLog(std::filesystem::path const& file, bool append) : file_(file, append ? AppendedFile::all : 0) {}
 
 void RunLog::write(std::string const& line) {
   double const t = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  file_ << fmt::format("{:10.3f}  {}\n", t, line) << std::flush;
+  file_.append(fmt::format("{:10.3f}  {}\n", t, line));
 }
 
 void RunLog::say(std::string const& line) {
-  fmt::print("{}\n", line);
+  std::fputs((line + "\n").c_str(), stdout);  // what fails here is told at the end of the program
   std::fflush(stdout);
   write(line);
 }

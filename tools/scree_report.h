@@ -5,10 +5,10 @@
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <string>
 #include <vector>
 
+#include "core/appended_file.h"
 #include "core/simulation.h"
 
 namespace scree {
@@ -18,10 +18,10 @@ class RunLog {
  public:
   RunLog(std::filesystem::path const& file, bool append);  // throws std::system_error
   void write(std::string const& line);                     // file only
-  void say(std::string const& line);                       // both
+  void say(std::string const& line);                       // both; a run does not end because nobody hears it
 
  private:
-  std::ofstream file_;
+  AppendedFile file_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 

@@ -2,20 +2,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <cerrno>
 #include <chrono>
 #include <csignal>
-#include <fstream>
 #include <optional>
-#include <system_error>
 #include <thread>
 
+#include "core/appended_file.h"
 #include "core/case.h"
 #include "core/frame_journal.h"
 #include "core/paraview.h"
 #include "core/results_layout.h"
 #include "core/simulation.h"
 #include "kernels/base/device.h"
+#include "shapes/whole_file.h"
 #include "tools/run_checkpoints.h"
 #include "tools/scree_commands.h"
 #include "tools/scree_folder.h"
@@ -35,15 +34,6 @@ extern "C" void on_signal(int signal) {
   std::signal(signal, SIG_DFL);
 }
 
-// Writes a small text file whole; throws std::system_error.
-void write_text(fs::path const& file, std::string const& text) {
-  errno = 0;
-  std::ofstream stream(file, std::ios::binary);
-  stream << text << std::flush;
-  if (!stream)
-    throw std::system_error(errno ? errno : EIO, std::generic_category(), file.string() + ": cannot be written");
-}
-
 // Everything a run writes while it goes.
 class Recorder {
  public:
@@ -52,15 +42,15 @@ class Recorder {
   Recorder(OutputFolder const& folder, Case const& c, ResultsHeader const& header, Simulation& simulation,
            EarlierFrames const* earlier, OutputProgress const* schedule)
       : results_(folder.file("results.h5"), header),
-        ledger_(folder.file("ledger.csv")),
+        ledger_(folder.file("ledger.csv"), 0),
         measures_(folder, c, simulation, schedule),
         column_(results_layout::columns_with(header.ledger)),
         every_(c.output.every) {
-    write_text(folder.file("case.effective.toml"), to_toml(c));
+    write_whole_file(folder.file("case.effective.toml"), to_toml(c), true);
     std::string names;
     for (results_layout::LedgerColumn const& column : column_)
       names += fmt::format("{}{}", names.empty() ? "" : ",", column.name);
-    ledger_ << names << "\n";
+    ledger_.append(names + "\n");
     if (c.output.paraview) {
       ParaviewOptions options;
       options.frames_expected = static_cast<int>(std::min(1e6, c.time.end / c.output.every)) + 2;
@@ -122,15 +112,14 @@ class Recorder {
     std::string line;
     for (results_layout::LedgerColumn const& column : column_)
       line += fmt::format("{}{:.9g}", line.empty() ? "" : ",", row.*column.value);
-    ledger_ << line << "\n" << std::flush;
-    if (!ledger_) throw std::system_error(EIO, std::generic_category(), "ledger.csv: cannot be written");
+    ledger_.append(line + "\n");
     if (journal_) journal_->append(frame, row);
     last_step_ = frame.step;
     ++frames_;
   }
 
   ResultsWriter results_;
-  std::ofstream ledger_;
+  AppendedFile ledger_;
   MeasureLog measures_;
   std::vector<results_layout::LedgerColumn> column_;  // of the ledger
   std::optional<ParaviewWriter> paraview_;
@@ -275,7 +264,7 @@ int run_command(RunArguments const& arguments) {
   recorder.finish(simulation, stages);
   if (ending.code == exit_ok && checkpoints.scheduled()) last = checkpoints.write(simulation, written);
   if (last) log.say(fmt::format("checkpoint {}", last->string()));
-  write_text(folder.file("stages.json"), stages_json(stages, simulation, options.threads, wall));
+  write_whole_file(folder.file("stages.json"), stages_json(stages, simulation, options.threads, wall), true);
   summarise(log, folder, c, simulation, recorder, ending, stages, wall);
   if (ending.code == exit_watch) fmt::print(stderr, "scree: error: {}\n", ending.text);
   return ending.code;

@@ -2,9 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <cerrno>
 #include <filesystem>
-#include <system_error>
 #include <vector>
 
 #include "core/case.h"
@@ -20,16 +18,6 @@ namespace fs = std::filesystem;
 
 void check_free(fs::path const& file, bool force) {
   if (fs::exists(file) && !force) throw InputError({file.string() + " exists; choose another --output or add --force"});
-}
-
-// What cannot be written is the file's fault, not the results'.
-void write(fs::path const& file, TriangleMesh const& mesh) {
-  errno = 0;
-  try {
-    write_mesh(file, mesh);
-  } catch (std::runtime_error const& error) {
-    throw std::system_error(errno ? errno : EIO, std::generic_category(), error.what());
-  }
 }
 
 }  // namespace
@@ -63,7 +51,7 @@ int export_surfaces(ExportArguments const& a) {
     meshes = {joined(meshes)};
   std::size_t triangles = 0;
   for (std::size_t i = 0; i < file.size(); ++i) {
-    write(file[i], meshes[i]);
+    write_mesh(file[i], meshes[i]);
     triangles += meshes[i].triangle.size();
   }
   fmt::print("surfaces  {}: t = {:.4g} s, {} grains, {} walls, {} triangles, world coordinates [m]\n", target.string(),

@@ -12,7 +12,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "shapes/exchange/whole_file.h"
+#include "shapes/whole_file.h"
 
 namespace scree {
 namespace {
@@ -153,7 +153,9 @@ FloatTensor convert(Entry const& entry, char const* data) {
   return tensor;
 }
 
-TensorFile parse(std::string const& bytes) {
+}  // namespace
+
+TensorFile parse_safetensors(std::string const& bytes) {
   if (bytes.size() < 8) fail("is too short for a safetensors file");
   std::uint64_t const length = load<std::uint64_t>(bytes.data());
   if (length > longest_header || length > bytes.size() - 8)
@@ -173,12 +175,10 @@ TensorFile parse(std::string const& bytes) {
   return content;
 }
 
-}  // namespace
-
 TensorFile read_safetensors(std::filesystem::path const& file) {
   std::string const bytes = read_whole_file(file);
   try {
-    return parse(bytes);
+    return parse_safetensors(bytes);
   } catch (std::runtime_error const& e) {
     throw std::runtime_error(file.string() + ": " + e.what());
   }

@@ -29,5 +29,6 @@ void write_safetensors(std::filesystem::path const& file, TensorFile const& cont
 // shapes, offsets (without holes or overlaps, to the end of the file), finite values. Throws std::runtime_error
 // "<file>: ..." naming the tensor.
 TensorFile read_safetensors(std::filesystem::path const& file);
+TensorFile parse_safetensors(std::string const& bytes);  // the same of a file's bytes; messages name no file
 
 }  // namespace scree

@@ -10,8 +10,8 @@
 
 #include "shapes/exchange/onnx_file.h"
 #include "shapes/exchange/safetensors_model.h"
-#include "shapes/exchange/whole_file.h"
 #include "shapes/model_file.h"
+#include "shapes/whole_file.h"
 #include "tests/support/pebble_decoder.h"
 #include "tests/support/same_library.h"
 

@@ -12,7 +12,7 @@
 #include <stdexcept>
 
 #include "shapes/exchange/onnx_file.h"
-#include "shapes/exchange/whole_file.h"
+#include "shapes/whole_file.h"
 #include "tests/support/pebble_decoder.h"
 #include "tests/support/random_mlp.h"
 

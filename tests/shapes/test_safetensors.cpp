@@ -14,7 +14,7 @@
 
 #include "shapes/exchange/foreign_net.h"
 #include "shapes/exchange/safetensors_model.h"
-#include "shapes/exchange/whole_file.h"
+#include "shapes/whole_file.h"
 #include "tests/support/pebble_decoder.h"
 #include "tests/support/random_mlp.h"
 #include "tests/support/same_library.h"
