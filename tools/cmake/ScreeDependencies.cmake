@@ -71,4 +71,13 @@ scree_optional(BENCHMARKS "${benchmark_FOUND}" "Google Benchmark (libbenchmark-d
 if(SCREE_TESTS)
   find_package(GTest REQUIRED)
 endif()
-message(STATUS "Scree parts: cuda ${SCREE_HAVE_CUDA}, mesh ${SCREE_HAVE_MESH}, training ${SCREE_HAVE_TRAINING}, exchange ${SCREE_HAVE_EXCHANGE}, onnx ${SCREE_HAVE_ONNX}, benchmarks ${SCREE_HAVE_BENCHMARKS}")
+# Fuzzers instrument every target, so that AUTO means a build that has sanitizers anyway.
+if(SCREE_TESTS AND (SCREE_FUZZ STREQUAL "ON" OR SCREE_SANITIZE))
+  include(CheckCXXSourceCompiles)
+  set(CMAKE_REQUIRED_FLAGS -fsanitize=fuzzer)
+  check_cxx_source_compiles("extern \"C\" int LLVMFuzzerTestOneInput(unsigned char const*, unsigned long) { return 0; }"
+                            SCREE_LIBFUZZER)
+  unset(CMAKE_REQUIRED_FLAGS)
+endif()
+scree_optional(FUZZ "${SCREE_LIBFUZZER}" "libFuzzer (CMAKE_CXX_COMPILER=clang++, libclang-rt-dev)")
+message(STATUS "Scree parts: cuda ${SCREE_HAVE_CUDA}, mesh ${SCREE_HAVE_MESH}, training ${SCREE_HAVE_TRAINING}, exchange ${SCREE_HAVE_EXCHANGE}, onnx ${SCREE_HAVE_ONNX}, benchmarks ${SCREE_HAVE_BENCHMARKS}, fuzz ${SCREE_HAVE_FUZZ}")
