@@ -8,6 +8,7 @@
 
 #include "core/case_identity.h"
 #include "core/checkpoint.h"
+#include "core/grain_entries.h"
 #include "core/simulation_impl.h"
 #include "core/state_members.h"
 
@@ -54,6 +55,37 @@ void require_same_sizes(State const& fresh, State const& saved) {
   });
 }
 
+template <class T>
+bool all_finite(T const& value) {
+  if constexpr (std::is_same_v<T, std::vector<Vec3>> || std::is_same_v<T, std::vector<Quat>> ||
+                std::is_same_v<T, std::vector<Wrench>> || std::is_same_v<T, std::vector<double>>) {
+    auto const* const number = reinterpret_cast<double const*>(value.data());
+    return std::all_of(number, number + value.size() * sizeof(value[0]) / sizeof(double),
+                       [](double v) { return std::isfinite(v); });
+  } else if constexpr (std::is_same_v<T, double>) {
+    return std::isfinite(value);
+  }
+  return true;
+}
+
+// What no step leaves behind. A state that a watch stopped because it was not finite is refused here.
+void require_sound_numbers(Case const& c, State const& fresh, State const& saved) {
+  for_each_member(saved, [](char const* name, auto const& member) {
+    if (!all_finite(member))
+      refuse(fmt::format("holds a number in '{}' that is not finite: nothing can go on from there", name));
+  });
+  for (Quat const& q : saved.orientation)
+    if (!(std::abs(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z - 1) < 1e-3))
+      refuse_content("an orientation is no rotation");
+  if (!(saved.time >= 0 && saved.step >= 0 && saved.time_step > 0 &&
+        saved.time_step <= std::max(c.time.end, fresh.time_step)))
+    refuse_content("time, step or time step");
+  std::vector<GrainEntry> const entries = entries_of(c);
+  for (std::size_t e = 0; e < saved.insertion.size(); ++e)
+    if (saved.insertion[e].done < 0 || saved.insertion[e].done > entries.at(e).count)
+      refuse_content("grains that were inserted");
+}
+
 void require_sound_measures(State const& fresh, State const& saved) {
   for (std::size_t k = 0; k < fresh.measure.size(); ++k) {
     std::size_t const memory = fresh.measure[k].memory.size();  // 0: not before the first sample
@@ -73,7 +105,8 @@ void require_sound_pairs(Scene const& scene, Effects const& effects, PairMemory 
     if (k.a < 0 || k.a >= scene.bodies() || k.b >= scene.solids() || k.b < -planes || (k.b >= 0 && k.b <= k.a))
       refuse_content(fmt::format("it pairs bodies {} and {}", k.a, k.b));
   std::size_t const built = p.built_position.size();
-  if ((built != 0 && built != std::size_t(scene.solids())) || p.built_orientation.size() != built)
+  if ((built != 0 && built != std::size_t(scene.solids())) || p.built_orientation.size() != built ||
+      !all_finite(p.built_position) || !all_finite(p.built_orientation))
     refuse_content("poses of the pair list");
   auto const of_pairs = [&](auto const& v, bool wanted) { return v.size() == (wanted ? n : 0); };
   bool const spheres = effects.friction && effects.sphere_contacts;
@@ -139,16 +172,15 @@ void Simulation::restore(Checkpoint const& checkpoint) {
   Impl& s = *impl_;
   require_same_case(s.c, s.scene, checkpoint);
   require_same_sizes(s.state, checkpoint.state);
+  require_sound_numbers(s.c, s.state, checkpoint.state);
   require_sound_measures(s.state, checkpoint.state);
   require_sound_pairs(s.scene, s.effects, checkpoint.pairs, checkpoint.state);
-  for (std::size_t i = 0; i < checkpoint.state.position.size(); ++i)
-    if (!is_finite(checkpoint.state.position[i]) || !is_finite(checkpoint.state.velocity[i]))
-      refuse(
-          fmt::format("holds a position or velocity of body {} that is not finite: nothing can go on from there", i));
   State state = checkpoint.state;
   restore_pairs(s.scene, checkpoint.pairs.pair, checkpoint.pairs.built_position, checkpoint.pairs.built_orientation,
                 s.work);
   NodeLists const& lists = s.work.gather.lists;
+  bool const remembers = s.effects.friction && s.effects.node_contacts;
+  if (checkpoint.pairs.side.size() != (remembers ? lists.side.size() : 0)) refuse_content("contact history");
   if (!checkpoint.pairs.side.empty())
     assign_history(checkpoint.pairs.side, lists.side_of_pair, lists.side.size(), state.node_history);
   // Samples of measurements without a key of their own follow output.every.
