@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/free_spots.h"
+#include "shapes/phi_batch.h"
 
 namespace scree {
 namespace {
@@ -168,6 +169,16 @@ void place_at_random(Case const& c, Scene const& scene, Placement& out, std::vec
   }
 }
 
+// Whether a grain's own centre is solid: that of a ring or a hook is not, and may well be in a wall.
+bool centre_is_solid(Scene const& scene, int body) {
+  std::size_t const shape = scene.shape_of[body];
+  if (shape >= scene.library.shape.size()) return true;  // compact grains are star-shaped
+  std::vector<Vec3> const centre(1);
+  std::vector<double> phi(1);
+  reference_phi(scene.library, scene.library.shape[shape])(centre, phi, {});
+  return phi[0] > 0;
+}
+
 // Lattices and lists know nothing of walls. A grain whose centre is inside one would stop the run at its first step.
 void check_starts(Case const& c, Scene const& scene, Placement const& placement, std::vector<std::string>& found) {
   using Kind = InsertCase::Kind;
@@ -177,7 +188,8 @@ void check_starts(Case const& c, Scene const& scene, Placement const& placement,
     if (kind == Kind::rate || kind == Kind::random) continue;  // these look for their places
     int inside = 0, first = -1, wall = -1;
     for (int i = e.first; i < e.first + e.count; ++i)
-      if (int const w = walls.wall_around(placement.position[i]); w >= 0 && ++inside == 1) first = i, wall = w;
+      if (int const w = walls.wall_around(placement.position[i]); w >= 0 && centre_is_solid(scene, i) && ++inside == 1)
+        first = i, wall = w;
     if (inside == 0) continue;
     Vec3 const x = placement.position[first];
     found.push_back(fmt::format(

@@ -1,5 +1,5 @@
-// model_file.cpp: a model file as a whole: its user block, its checks, put in place in one step. Layout:
-// model_content.cpp. SPDX-License-Identifier: Apache-2.0
+// model_file.cpp: a model file as a whole: user block, checks, put in place in one step. Layout: model_content.cpp.
+// SPDX-License-Identifier: Apache-2.0
 #include "shapes/model_file.h"
 
 #include <unistd.h>

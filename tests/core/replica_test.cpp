@@ -131,7 +131,7 @@ TEST(Replicas, GrainsAtTheSameSpotNeverMeet) {
     c.grains[1].name = "other";
     c.wall = {floor_at(0)};
     c.time.end = 0.3;
-    c.time.step = 1e-4;
+    c.time.step = 5e-5;
     c.replicas = 2;
     for (GrainsCase& g : c.grains) g.apart = true;
     Simulation together(c, {});

@@ -1,5 +1,5 @@
-// write_faults_test.cpp: every writer of a file against a full disk, at many sizes: it throws, names file and cause,
-// and leaves what was there before. SPDX-License-Identifier: Apache-2.0
+// write_faults_test.cpp: every writer of a file against a full disk: names file and cause, leaves what was there.
+// SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 #include <unistd.h>
 
