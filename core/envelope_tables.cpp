@@ -3,11 +3,9 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <cerrno>
-#include <fstream>
-#include <system_error>
 
 #include "core/envelopes.h"
+#include "shapes/whole_file.h"
 
 namespace scree {
 namespace {
@@ -110,14 +108,8 @@ std::vector<fs::path> envelope_files(fs::path const& folder) {
 
 void write_envelopes(Envelopes const& envelopes, fs::path const& folder) {
   std::vector<fs::path> const files = envelope_files(folder);
-  for (std::size_t k = 0; k < tables.size(); ++k) {
-    errno = 0;
-    std::ofstream stream(files[k], std::ios::binary);
-    stream << tables[k].columns << '\n' << tables[k].rows(envelopes);
-    stream.close();
-    if (!stream)
-      throw std::system_error(errno ? errno : EIO, std::generic_category(), files[k].string() + ": cannot be written");
-  }
+  for (std::size_t k = 0; k < tables.size(); ++k)
+    replace_whole_file(files[k], std::string(tables[k].columns) + '\n' + tables[k].rows(envelopes));
 }
 
 }  // namespace scree

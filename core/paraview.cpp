@@ -164,7 +164,7 @@ void ParaviewWriter::Data::write_collection(char const* name, std::vector<Entry>
   for (Entry const& e : entries)
     text += fmt::format("    <DataSet timestep=\"{}\" group=\"\" part=\"{}\" file=\"{}\"/>\n", e.time, e.part, e.file);
   // In one step: a reader never sees half of it.
-  write_whole_file(folder / name, text + "  </Collection>\n</VTKFile>\n", true, false);
+  replace_whole_file(folder / name, text + "  </Collection>\n</VTKFile>\n");
 }
 
 ParaviewWriter::ParaviewWriter(fs::path const& folder, ResultsHeader const& header, ParaviewOptions const& options)

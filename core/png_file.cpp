@@ -31,7 +31,7 @@ std::vector<std::uint8_t> png_bytes(Image const& image) {
 
 void write_png(std::filesystem::path const& file, Image const& image) {
   std::vector<std::uint8_t> const bytes = png_bytes(image);
-  write_whole_file(file, {bytes.begin(), bytes.end()}, true, false);
+  replace_whole_file(file, {bytes.begin(), bytes.end()});
 }
 
 }  // namespace scree

@@ -126,7 +126,7 @@ void write_vtp(std::filesystem::path const& file, VtkPolyData const& data) {
   document.section("Verts", vertex_cells(data.vertices ? data.point.size() : 0));
   document.section("Polys", polygon_cells(data));
   document.text("    </Piece>\n  </PolyData>\n");
-  write_whole_file(file, document.finish(), true, false);
+  replace_whole_file(file, document.finish());
 }
 
 }  // namespace scree

@@ -78,7 +78,7 @@ void write_mesh(std::filesystem::path const& file, TriangleMesh const& mesh) {
   std::string const bytes = extension == ".stl"   ? stl_bytes(mesh)
                             : extension == ".obj" ? obj_text(mesh)
                                                   : ply_bytes(mesh.vertex, {}, mesh.triangle);
-  write_whole_file(file, bytes, true, false);
+  replace_whole_file(file, bytes);
 }
 
 bool is_mesh_file(std::filesystem::path const& file) {

@@ -65,8 +65,7 @@ PointCloud read_points(std::filesystem::path const& file) {
 void write_points(std::filesystem::path const& file, PointCloud const& cloud) {
   std::string const extension = lower_extension(file);
   if (extension != ".ply" && extension != ".xyz") fail_file(file, "unknown point format; .ply and .xyz are written");
-  write_whole_file(file, extension == ".xyz" ? xyz_text(cloud) : ply_bytes(cloud.position, cloud.normal, {}), true,
-                   false);
+  replace_whole_file(file, extension == ".xyz" ? xyz_text(cloud) : ply_bytes(cloud.position, cloud.normal, {}));
 }
 
 bool holds_points(std::filesystem::path const& file) {

@@ -43,6 +43,20 @@ int replace(fs::path const& file, std::string const& bytes, bool flush) {
   return error;
 }
 
+// Whichever way the kind of file asks for. Throws std::system_error.
+void write_any_file(fs::path const& file, std::string const& bytes, bool flush) {
+  std::error_code error;
+  fs::file_status const status = fs::status(file, error);
+  int failed = 0;
+  if (fs::is_directory(status))
+    failed = EISDIR;
+  else if (fs::exists(status) && !fs::is_regular_file(status))
+    failed = write_all(file, 0, bytes, false);
+  else
+    failed = replace(fs::is_symlink(file, error) ? fs::weakly_canonical(file) : file, bytes, flush);
+  if (failed != 0) throw std::system_error(failed, std::generic_category(), file.string() + ": cannot be written");
+}
+
 }  // namespace
 
 std::string read_whole_file(fs::path const& file) {
@@ -59,19 +73,13 @@ std::string read_whole_file(fs::path const& file) {
   return bytes;
 }
 
-void write_whole_file(fs::path const& file, std::string const& bytes, bool overwrite, bool flush) {
+void write_whole_file(fs::path const& file, std::string const& bytes, bool overwrite) {
   std::error_code error;
-  fs::file_status const status = fs::status(file, error);
-  if (!overwrite && fs::exists(status))
+  if (!overwrite && fs::exists(file, error))
     throw std::runtime_error(file.string() + ": exists already and is left as it is");
-  int failed = 0;
-  if (fs::is_directory(status))
-    failed = EISDIR;
-  else if (fs::exists(status) && !fs::is_regular_file(status))
-    failed = write_all(file, 0, bytes, false);
-  else
-    failed = replace(fs::is_symlink(file, error) ? fs::weakly_canonical(file) : file, bytes, flush);
-  if (failed != 0) throw std::system_error(failed, std::generic_category(), file.string() + ": cannot be written");
+  write_any_file(file, bytes, true);
 }
+
+void replace_whole_file(fs::path const& file, std::string const& bytes) { write_any_file(file, bytes, false); }
 
 }  // namespace scree

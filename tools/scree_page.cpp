@@ -2,13 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <cerrno>
 #include <fstream>
 #include <sstream>
-#include <system_error>
 
 #include "core/case.h"
 #include "core/render.h"
+#include "shapes/whole_file.h"
 #include "tools/report_page.h"
 #include "tools/scree_commands.h"
 
@@ -34,21 +33,6 @@ std::string title_of(ResultsHeader const& header, fs::path const& folder) {
   return (fs::absolute(folder) / "").parent_path().filename().string();
 }
 
-void write_text(fs::path const& file, std::string const& text) {
-  fs::path temporary = file;
-  temporary += ".part";
-  std::ofstream out(temporary, std::ios::binary);
-  out << text;
-  out.close();
-  if (!out) {
-    std::error_code const why(errno ? errno : EIO, std::generic_category());
-    std::error_code ignored;
-    fs::remove(temporary, ignored);
-    throw std::system_error(why, file.string() + ": cannot write the report");
-  }
-  fs::rename(temporary, file);
-}
-
 }  // namespace
 
 int report_command(ReportArguments const& arguments) {
@@ -70,7 +54,7 @@ int report_command(ReportArguments const& arguments) {
   page.title = title_of(results.header(), folder);
   fs::path const target = arguments.page.empty() ? folder / "report.html" : arguments.page;
   std::string const html = report_page(page);
-  write_text(target, html);
+  replace_whole_file(target, html);
   fmt::print("report    {}: {:.2f} MB, needs no network\n", target.string(), 1e-6 * static_cast<double>(html.size()));
   return exit_ok;
 }
