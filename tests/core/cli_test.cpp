@@ -24,10 +24,13 @@
 #include "shapes/mesh_files.h"
 #include "shapes/model_file.h"
 #include "tests/support/pebble_decoder.h"
+#include "tests/support/shell.h"
 
 namespace {
 
 using namespace scree;
+using scree::testing::Outcome;
+using scree::testing::shell;
 namespace fs = std::filesystem;
 
 // One sphere 1 mm above a floor, 2 ms: a run of a fraction of a second.
@@ -72,12 +75,7 @@ std::string read_file(fs::path const& file) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-struct Outcome {
-  int code = -1;
-  std::string text;  // stdout and stderr
-};
-
-class Program : public testing::Test {
+class Program : public ::testing::Test {
  protected:
   void SetUp() override {
     folder_ = fs::temp_directory_path() / ("scree_cli_test_" + std::to_string(::getpid()));
@@ -86,17 +84,7 @@ class Program : public testing::Test {
   }
   void TearDown() override { fs::remove_all(folder_); }
 
-  Outcome scree(std::string const& arguments) const {
-    std::string const command = "cd " + folder_.string() + " && " SCREE_PROGRAM " " + arguments + " 2>&1";
-    Outcome outcome;
-    std::FILE* const pipe = ::popen(command.c_str(), "r");
-    std::array<char, 4096> buffer;
-    while (std::size_t const n = std::fread(buffer.data(), 1, buffer.size(), pipe))
-      outcome.text.append(buffer.data(), n);
-    int const status = ::pclose(pipe);
-    outcome.code = WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status);
-    return outcome;
-  }
+  Outcome scree(std::string const& arguments) const { return shell(folder_, SCREE_PROGRAM " " + arguments); }
 
   fs::path write(std::string const& name, std::string const& text) const {
     std::ofstream(folder_ / name, std::ios::binary) << text;

@@ -1,22 +1,20 @@
 // report_test.cpp: `scree report`: its building blocks, what the page holds, and a browser that opens it without error.
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
-#include <array>
-#include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 
+#include "tests/support/shell.h"
 #include "tools/report_page.h"
 
 namespace scree {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::Outcome;
 
 TEST(ReportText, Base64IsThatOfRfc4648) {
   // Section 10 of the RFC.
@@ -85,19 +83,7 @@ every = 0.0002
 every = 0.001
 )";
 
-struct Outcome {
-  int code = -1;
-  std::string text;
-};
-Outcome shell(std::string const& command) {
-  std::FILE* const pipe = ::popen((command + " 2>&1").c_str(), "r");
-  Outcome out;
-  std::array<char, 4096> buffer;
-  for (std::size_t n; (n = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;) out.text.append(buffer.data(), n);
-  int const status = ::pclose(pipe);
-  out.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  return out;
-}
+Outcome shell(std::string const& command) { return testing::shell("/", command); }
 
 class Report : public ::testing::Test {
  protected:

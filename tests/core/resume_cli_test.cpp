@@ -6,7 +6,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <array>
 #include <chrono>
 #include <cstdio>
 #include <cstring>
@@ -16,55 +15,19 @@
 
 #include "core/checkpoint_folder.h"
 #include "core/results.h"
+#include "tests/support/pouring_case.h"
 #include "tests/support/same_state.h"
+#include "tests/support/shell.h"
 
 namespace {
 
 using namespace scree;
+using scree::testing::pouring_case;
 namespace fs = std::filesystem;
 
-// Spheres with friction that pour into a box, 0.2 s. The frames are not at multiples of the step.
-char const* const pouring_case = R"([case]
-name = "pour"
-[time]
-end = 0.2
-step = 5e-6
-[gravity]
-acceleration = [0, 0, -9.81]
-[[material]]
-name = "rock"
-density = 2650
-[[contact]]
-pair = ["rock", "rock"]
-normal = { stiffness = 2e5 }
-friction = 0.5
-[[grains]]
-name = "balls"
-material = "rock"
-shapes = ["sphere"]
-evaluator = "analytic"
-count = 12
-diameter = 0.05
-insert = { kind = "rate", box = [[0.05, 0.05, 0.05], [0.25, 0.25, 0.25]], rate = 100, velocity = [0.3, 0, -1] }
-[[wall]]
-name = "box"
-kind = "box"
-min = [0, 0, 0]
-max = [0.3, 0.3, 0.3]
-open = ["+z"]
-material = "rock"
-[[measure]]
-name = "pull"
-kind = "wall_force"
-wall = "box"
-every = 0.0011
-[[measure]]
-name = "chains"
-kind = "force_chains"
-contacts = true
-[output]
-every = 0.00703
-)";
+// 0.2 s; the frames are not at multiples of the step.
+std::string const pouring =
+    pouring_case({.end = "0.2", .step = "5e-6", .rate = "100", .sampled = "0.0011", .every = "0.00703"});
 std::string const scheduled = "[checkpoint]\nevery = 0.02\nkeep = 2\n";
 
 std::string read_file(fs::path const& file) {
@@ -86,14 +49,8 @@ class Resume : public ::testing::Test {
   }
 
   int scree(std::string const& arguments, std::string* text = nullptr) const {
-    std::string const command = "cd " + folder_.string() + " && " SCREE_PROGRAM " " + arguments + " 2>&1";
-    std::FILE* const pipe = ::popen(command.c_str(), "r");
-    std::array<char, 4096> buffer;
-    std::string said;
-    while (std::size_t const n = std::fread(buffer.data(), 1, buffer.size(), pipe)) said.append(buffer.data(), n);
-    int const status = ::pclose(pipe);
+    auto const [code, said] = scree::testing::shell(folder_, SCREE_PROGRAM " " + arguments);
     if (text) *text = said;
-    int const code = WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status);
     if (code != 0 && !text) printf("%s\n", said.c_str());
     return code;
   }
@@ -168,7 +125,7 @@ class Resume : public ::testing::Test {
 };
 
 TEST_F(Resume, AfterSigtermAndSigint) {
-  write("pour.toml", pouring_case + scheduled);
+  write("pour.toml", pouring + scheduled);
   ASSERT_EQ(scree("run pour.toml -o whole"), 0);
   std::uintmax_t const bytes = fs::file_size(folder_ / "whole/ledger.csv");
   // Twice: a run can be stopped again after it was resumed.
@@ -187,7 +144,7 @@ TEST_F(Resume, AfterSigtermAndSigint) {
 
 // No [checkpoint]: stopping writes one all the same, and nothing else does.
 TEST_F(Resume, WithoutCheckpointsInTheCase) {
-  write("pour.toml", std::string(pouring_case) + "paraview = true\n");
+  write("pour.toml", pouring + "paraview = true\n");
   ASSERT_EQ(scree("run pour.toml -o whole"), 0);
   EXPECT_FALSE(fs::exists(folder_ / "whole/checkpoint"));
   ASSERT_EQ(run_and_signal({"pour.toml", "-o", "stopped"}, "stopped", fs::file_size(folder_ / "whole/ledger.csv") / 2,
@@ -200,7 +157,7 @@ TEST_F(Resume, WithoutCheckpointsInTheCase) {
 
 // Killed outright, several times over: the run goes on from its last checkpoint, with the frames from before it.
 TEST_F(Resume, AfterKills) {
-  write("pour.toml", pouring_case + scheduled);
+  write("pour.toml", pouring + scheduled);
   ASSERT_EQ(scree("run pour.toml -o whole"), 0);
   std::uintmax_t const bytes = fs::file_size(folder_ / "whole/ledger.csv");
   ASSERT_EQ(run_and_signal({"pour.toml", "-o", "killed"}, "killed", bytes / 3, SIGKILL), -SIGKILL);
@@ -220,7 +177,7 @@ TEST_F(Resume, AfterKills) {
 
 // A finished run with checkpoints goes on to a later end.
 TEST_F(Resume, ToALaterEnd) {
-  write("pour.toml", pouring_case + scheduled);
+  write("pour.toml", pouring + scheduled);
   ASSERT_EQ(scree("run pour.toml -o whole"), 0);
   ASSERT_EQ(scree("run pour.toml -o part --set time.end=0.1"), 0);
   ASSERT_EQ(scree("run pour.toml -o part --resume"), 0);
@@ -234,7 +191,7 @@ TEST_F(Resume, ToALaterEnd) {
 }
 
 TEST_F(Resume, WhatCannotBeResumed) {
-  write("pour.toml", pouring_case + scheduled);
+  write("pour.toml", pouring + scheduled);
   std::string said;
   // Nothing there yet: the same command starts the run.
   EXPECT_EQ(scree("run pour.toml -o out --resume --set time.end=0.03", &said), 0) << said;
@@ -262,7 +219,7 @@ TEST_F(Resume, WhatCannotBeResumed) {
 
 // A watch that stops the run writes the state; a limit that lets it go on is one of the keys that may change.
 TEST_F(Resume, AfterAWatchStop) {
-  write("pour.toml", pouring_case);
+  write("pour.toml", pouring);
   ASSERT_EQ(scree("run pour.toml -o whole"), 0);
   std::string said;
   ASSERT_EQ(scree("run pour.toml -o stopped --set limits.overlap=1e-4", &said), 1) << said;

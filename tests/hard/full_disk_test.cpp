@@ -11,6 +11,7 @@
 #include "core/checkpoint_folder.h"
 #include "core/results.h"
 #include "tests/support/limited_disk.h"
+#include "tests/support/pouring_case.h"
 #include "tests/support/same_state.h"
 
 namespace {
@@ -19,52 +20,10 @@ using namespace scree;
 using namespace scree::testing;
 namespace fs = std::filesystem;
 
-// Spheres with friction that pour into a box: every file that a run can write.
-char const* const pouring_case = R"([case]
-name = "pour"
-[time]
-end = 0.06
-step = 2e-5
-[gravity]
-acceleration = [0, 0, -9.81]
-[[material]]
-name = "rock"
-density = 2650
-[[contact]]
-pair = ["rock", "rock"]
-normal = { stiffness = 2e5 }
-friction = 0.5
-[[grains]]
-name = "balls"
-material = "rock"
-shapes = ["sphere"]
-evaluator = "analytic"
-count = 12
-diameter = 0.05
-insert = { kind = "rate", box = [[0.05, 0.05, 0.05], [0.25, 0.25, 0.25]], rate = 400, velocity = [0.3, 0, -1] }
-[[wall]]
-name = "box"
-kind = "box"
-min = [0, 0, 0]
-max = [0.3, 0.3, 0.3]
-open = ["+z"]
-material = "rock"
-[[measure]]
-name = "pull"
-kind = "wall_force"
-wall = "box"
-every = 0.0003
-[[measure]]
-name = "chains"
-kind = "force_chains"
-contacts = true
-[output]
-every = 0.00113
-paraview = true
-[checkpoint]
-every = 0.0061
-keep = 2
-)";
+// Every file that a run can write.
+std::string const pouring =
+    pouring_case({.end = "0.06", .step = "2e-5", .rate = "400", .sampled = "0.0003", .every = "0.00113"}) +
+    "paraview = true\n[checkpoint]\nevery = 0.0061\nkeep = 2\n";
 
 std::string read_file(fs::path const& file) {
   std::ifstream stream(file, std::ios::binary);
@@ -80,7 +39,7 @@ class FullDisk : public ::testing::Test {
     folder_ = fs::temp_directory_path() / ("scree_full_disk_" + std::to_string(::getpid()));
     fs::remove_all(folder_);
     fs::create_directories(folder_);
-    std::ofstream(folder_ / "pour.toml") << pouring_case;
+    std::ofstream(folder_ / "pour.toml") << pouring;
     Outcome const whole = scree("run pour.toml -o whole");
     ASSERT_EQ(whole.code, 0) << whole.text;
     for (auto const& e : fs::recursive_directory_iterator(folder_ / "whole")) {

@@ -4,13 +4,12 @@
 
 #include <signal.h>
 #include <sys/resource.h>
-#include <sys/wait.h>
 
-#include <array>
 #include <cstdint>
-#include <cstdio>
 #include <filesystem>
 #include <string>
+
+#include "tests/support/shell.h"
 
 namespace scree::testing {
 
@@ -34,23 +33,6 @@ class FileSizeLimit {
   rlimit before_{};
   void (*handler_)(int) = nullptr;
 };
-
-struct Outcome {
-  int code = -1;     // exit code; 1000 + signal
-  std::string text;  // stdout and stderr
-};
-
-// A shell command in a folder.
-inline Outcome shell(std::filesystem::path const& folder, std::string const& command) {
-  Outcome outcome;
-  std::string const whole = "cd '" + folder.string() + "' && { " + command + "; } 2>&1";
-  std::FILE* const pipe = ::popen(whole.c_str(), "r");
-  std::array<char, 4096> buffer;
-  while (std::size_t const n = std::fread(buffer.data(), 1, buffer.size(), pipe)) outcome.text.append(buffer.data(), n);
-  int const status = ::pclose(pipe);
-  outcome.code = WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status);
-  return outcome;
-}
 
 // Whether this process may have a mount namespace of its own; containers often forbid it.
 inline bool can_mount() { return shell("/", "unshare -rm mount -t tmpfs none /tmp").code == 0; }
