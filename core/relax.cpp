@@ -49,6 +49,37 @@ Vec3 parting_direction(Pair p) {
   return {r * std::cos(turn), r * std::sin(turn), z};
 }
 
+// What parts pairs that no descent parts, of each body [m]: those whose forces cancel and, where the descent is
+// stalled, the deep ones. `deepest` [d].
+void push_apart(Scene const& scene, Workspace const& work, double travel, bool stalled, double deepest,
+                std::vector<Vec3>& push) {
+  std::fill(push.begin(), push.end(), Vec3{});
+  for (std::size_t k = 0; k < work.pair.size(); ++k) {
+    Pair const p = work.pair[k];
+    PairResult const& r = work.result[k];
+    if (p.with_plane() || !(r.overlap > 0)) continue;
+    bool const balanced = norm(r.elastic.force_on_a) <= cancelled * r.stiffness * r.overlap;
+    bool const deep = r.overlap > 0.5 * deepest * std::min(scene.diameter[p.a], scene.diameter[p.b]);
+    if (!balanced && !(stalled && deep)) continue;
+    Vec3 const way = parting_direction(p) * (0.25 * travel);
+    push[p.a] += way * scene.diameter[p.a];
+    if (p.b < scene.bodies()) push[p.b] -= way * scene.diameter[p.b];
+  }
+}
+
+// One pass: along the contact's force and torque, and the push, no point further than `travel` [d].
+void move_grain(Scene const& scene, int i, double travel, Vec3 push, State& state) {
+  Wrench const& w = state.wrench.elastic[i];
+  double const rate = state.wrench.stiffness[i] > 0 ? descent / state.wrench.stiffness[i] : 0;  // [s^2]
+  Vec3 shift = w.force * (rate / scene.mass[i]) + push;
+  Vec3 turn = inverse_inertia_times(to_matrix(state.orientation[i]), scene.inertia[i], w.torque) * rate;
+  double const d = scene.diameter[i], reach = scene.shape[scene.shape_of[i]].bounding_radius * d;
+  double const way = norm(shift) + reach * norm(turn);
+  if (way > travel * d) shift = shift * (travel * d / way), turn = turn * (travel * d / way);
+  state.position[i] += shift;
+  state.orientation[i] = normalized(quat_from_rotation_vector(turn) * state.orientation[i]);
+}
+
 }  // namespace
 
 std::string relax_overlaps(Queue const& queue, Case const& c, Scene const& scene, Effects const& effects,
@@ -73,30 +104,9 @@ std::string relax_overlaps(Queue const& queue, Case const& c, Scene const& scene
       stalled = pass > 0 && now.overlap > (1 - stall_share) * before;
       before = now.overlap;
     }
-    std::fill(push.begin(), push.end(), Vec3{});
-    for (std::size_t k = 0; k < work.pair.size(); ++k) {
-      Pair const p = work.pair[k];
-      PairResult const& r = work.result[k];
-      if (p.with_plane() || !(r.overlap > 0)) continue;
-      bool const balanced = norm(r.elastic.force_on_a) <= cancelled * r.stiffness * r.overlap;
-      bool const deep = r.overlap > 0.5 * now.overlap * std::min(scene.diameter[p.a], scene.diameter[p.b]);
-      if (!balanced && !(stalled && deep)) continue;
-      Vec3 const way = parting_direction(p) * (0.25 * relax.travel);
-      push[p.a] += way * scene.diameter[p.a];
-      if (p.b < n) push[p.b] -= way * scene.diameter[p.b];
-    }
-    for (int i = 0; i < n; ++i) {
-      if (!state.is_active(i)) continue;
-      Wrench const& w = state.wrench.elastic[i];
-      double const rate = state.wrench.stiffness[i] > 0 ? descent / state.wrench.stiffness[i] : 0;  // [s^2]
-      Vec3 shift = w.force * (rate / scene.mass[i]) + push[i];
-      Vec3 turn = inverse_inertia_times(to_matrix(state.orientation[i]), scene.inertia[i], w.torque) * rate;
-      double const d = scene.diameter[i], reach = scene.shape[scene.shape_of[i]].bounding_radius * d;
-      double const way = norm(shift) + reach * norm(turn);
-      if (way > relax.travel * d) shift = shift * (relax.travel * d / way), turn = turn * (relax.travel * d / way);
-      state.position[i] += shift;
-      state.orientation[i] = normalized(quat_from_rotation_vector(turn) * state.orientation[i]);
-    }
+    push_apart(scene, work, relax.travel, stalled, now.overlap, push);
+    for (int i = 0; i < n; ++i)
+      if (state.is_active(i)) move_grain(scene, i, relax.travel, push[i], state);
   }
   if (now.overlap > relax.overlap)
     throw InputError({fmt::format(
