@@ -12,6 +12,7 @@
 #include "core/case_effects_text.h"
 #include "core/case_measure_text.h"
 #include "core/case_reader.h"
+#include "core/case_run_text.h"
 #include "core/case_text.h"
 #include "core/case_wall.h"
 #include "core/certificate_gate.h"
@@ -224,33 +225,6 @@ void read_grains(CaseReader r, GrainsCase& out) {
   r.finish();
 }
 
-void read_output(CaseReader r, OutputCase& out) {
-  r.number("every", out.every);
-  r.boolean("paraview", out.paraview);
-  r.finish();
-}
-
-void read_checkpoint(CaseReader r, CheckpointCase& out) {
-  r.number("every", out.every);
-  r.integer("keep", out.keep);
-  r.finish();
-}
-
-void read_relax(CaseReader r, RelaxCase& out) {
-  r.number("overlap", out.overlap);
-  r.number("travel", out.travel);
-  r.integer("passes", out.passes);
-  r.finish();
-}
-
-void read_limits(CaseReader r, LimitsCase& out) {
-  r.number("overlap", out.overlap);
-  r.interval("gradient", out.gradient_low, out.gradient_high);
-  r.number("ledger", out.ledger);
-  for (CertificateLimit const& l : certificate_limits()) r.number(l.name, out.*l.limit);
-  r.finish();
-}
-
 // Every [[key]] entry through `read`, appended to `out`.
 template <class T>
 void read_list(CaseReader& root, std::string const& key, std::vector<T>& out, void (*read)(CaseReader, T&)) {
@@ -278,10 +252,7 @@ void read_case(CaseReader root, Case& out) {
   read_list(root, "grains", out.grains, read_grains);
   read_list(root, "wall", out.wall, read_wall);
   read_list(root, "measure", out.measure, read_measure);
-  if (auto output = root.table("output")) read_output(*output, out.output);
-  if (auto checkpoint = root.table("checkpoint")) read_checkpoint(*checkpoint, out.checkpoint.emplace());
-  if (auto limits = root.table("limits")) read_limits(*limits, out.limits);
-  if (auto relax = root.table("relax")) read_relax(*relax, out.relax.emplace());
+  read_run(root, out);
   root.finish();
 }
 

@@ -15,6 +15,8 @@
 
 #include "core/case_effects_text.h"
 #include "core/case_measure_text.h"
+#include "core/case_range.h"
+#include "core/case_run_text.h"
 #include "core/certificate_gate.h"
 #include "core/nearest_name.h"
 #include "core/sampled_grains.h"
@@ -33,8 +35,9 @@ class Checker {
 
  private:
   void fail(std::string key, std::string text) { found_.push_back({std::move(key), std::move(text)}); }
-  // low < value <= high, or low <= value where `low_allowed`; NaN and infinity always fail.
-  void range(std::string const& key, double value, double low, bool low_allowed, double high, char const* reason);
+  void range(std::string const& key, double value, double low, bool low_allowed, double high, char const* reason) {
+    if (std::string wrong = out_of_range(value, low, low_allowed, high, reason); !wrong.empty()) fail(key, wrong);
+  }
   void positive(std::string const& key, double value, char const* reason) {
     range(key, value, 0, false, infinity, reason);
   }
@@ -54,22 +57,11 @@ class Checker {
   void insertion(std::string const& key, GrainsCase const& g);
   void grains();
   void walls();
-  void rest();
 
   Case const& c_;
   std::vector<CaseProblem> found_;
   std::vector<std::string> library_, material_;
 };
-
-void Checker::range(std::string const& key, double value, double low, bool low_allowed, double high,
-                    char const* reason) {
-  if (std::isfinite(value) && (low_allowed ? value >= low : value > low) && value <= high) return;
-  std::string const upper = std::isfinite(high)    ? fmt::format(" and <= {}", high)
-                            : std::isfinite(value) ? ""
-                                                   : " and finite";
-  fail(key,
-       fmt::format("{} is out of range: must be {} {}{} ({})", value, low_allowed ? ">=" : ">", low, upper, reason));
-}
 
 void Checker::finite(std::string const& key, Vec3 value) {
   if (!is_finite(value)) fail(key, fmt::format("[{}, {}, {}] must be finite", value.x, value.y, value.z));
@@ -351,31 +343,6 @@ void Checker::walls() {
   }
 }
 
-void Checker::rest() {
-  if (c_.gravity) finite("gravity.acceleration", *c_.gravity);
-  positive("output.every", c_.output.every, "seconds between frames");
-  if (c_.checkpoint) {
-    positive("checkpoint.every", c_.checkpoint->every, "seconds between checkpoints");
-    range("checkpoint.keep", c_.checkpoint->keep, 1, true, 1000, "checkpoints kept");
-  }
-  if (c_.relax) {
-    range("relax.overlap", c_.relax->overlap, 0, false, 0.5, "d; relaxing ends when no contact is deeper");
-    range("relax.travel", c_.relax->travel, 0, false, 0.1, "d that a point may move in one pass");
-    range("relax.passes", c_.relax->passes, 1, true, 1e6, "passes");
-  }
-  LimitsCase const& l = c_.limits;
-  range("limits.overlap", l.overlap, 0, false, 0.5, "d; the watch stops the run above it");
-  bool const ordered =
-      l.gradient_low > 0 && l.gradient_low < 1 && l.gradient_high > 1 && std::isfinite(l.gradient_high);
-  if (!ordered)
-    fail("limits.gradient", fmt::format("[{}, {}] must enclose 1 and be > 0: |grad phi| of a true distance is 1",
-                                        l.gradient_low, l.gradient_high));
-  positive("limits.ledger", l.ledger, "a share of the energy moved");
-  for (CertificateLimit const& limit : certificate_limits())
-    if (double const value = l.*limit.limit; !(std::isfinite(value) && value >= 0))
-      fail(std::string("limits.") + limit.name, fmt::format("{} must be >= 0: {}", value, limit.meaning));
-}
-
 std::vector<CaseProblem> Checker::run() {
   time();
   materials();
@@ -385,7 +352,8 @@ std::vector<CaseProblem> Checker::run() {
   touching_pairs();
   check_effects(c_, found_);
   check_measures(c_, found_);
-  rest();
+  if (c_.gravity) finite("gravity.acceleration", *c_.gravity);
+  check_run(c_, found_);
   return std::move(found_);
 }
 

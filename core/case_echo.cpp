@@ -6,6 +6,7 @@
 #include "core/case.h"
 #include "core/case_effects_text.h"
 #include "core/case_measure_text.h"
+#include "core/case_run_text.h"
 #include "core/case_wall.h"
 #include "core/certificate_gate.h"
 #include "core/sampled_grains.h"
@@ -165,16 +166,7 @@ std::string to_toml(Case const& c) {
   for (GrainsCase const& g : c.grains) write_grains(out, g);
   for (WallCase const& w : c.wall) out += wall_to_toml(w);
   out += measures_to_toml(c);
-  out += fmt::format("\n[output]\nevery = {}  # [s]\nparaview = {}\n", c.output.every, c.output.paraview);
-  if (c.checkpoint)
-    out += fmt::format("\n[checkpoint]\nevery = {}  # [s]\nkeep = {}\n", c.checkpoint->every, c.checkpoint->keep);
-  if (c.relax)
-    out += fmt::format("\n[relax]\noverlap = {}  # [d]\ntravel = {}  # [d]\npasses = {}\n", c.relax->overlap,
-                       c.relax->travel, c.relax->passes);
-  out += fmt::format("\n[limits]\noverlap = {}  # [d]\ngradient = [{}, {}]\nledger = {}\n", c.limits.overlap,
-                     c.limits.gradient_low, c.limits.gradient_high, c.limits.ledger);
-  for (CertificateLimit const& l : certificate_limits())
-    out += fmt::format("{} = {}  # {}\n", l.name, c.limits.*l.limit, l.meaning);
+  out += run_to_toml(c);
   return out;
 }
 

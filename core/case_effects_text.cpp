@@ -7,7 +7,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "core/case_range.h"
 #include "core/nearest_name.h"
 
 namespace scree {
@@ -84,8 +86,9 @@ class EffectsChecker {
   }
 
   void not_negative(std::string const& key, double value, char const* reason) {
-    if (!(std::isfinite(value) && value >= 0))
-      fail(key, fmt::format("{} is out of range: must be >= 0 ({})", value, reason));
+    if (std::string wrong = out_of_range(value, 0, true, std::numeric_limits<double>::infinity(), reason);
+        !wrong.empty())
+      fail(key, wrong);
   }
 
  private:

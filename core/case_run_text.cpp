@@ -1,0 +1,98 @@
+// case_run_text.cpp: see case_run_text.h.
+// SPDX-License-Identifier: Apache-2.0
+#include "core/case_run_text.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+
+#include "core/case_range.h"
+#include "core/certificate_gate.h"
+
+namespace scree {
+namespace {
+
+void read_output(CaseReader r, OutputCase& out) {
+  r.number("every", out.every);
+  r.boolean("paraview", out.paraview);
+  r.finish();
+}
+
+void read_checkpoint(CaseReader r, CheckpointCase& out) {
+  r.number("every", out.every);
+  r.integer("keep", out.keep);
+  r.finish();
+}
+
+void read_relax(CaseReader r, RelaxCase& out) {
+  r.number("overlap", out.overlap);
+  r.number("travel", out.travel);
+  r.integer("passes", out.passes);
+  r.finish();
+}
+
+void read_limits(CaseReader r, LimitsCase& out) {
+  r.number("overlap", out.overlap);
+  r.interval("gradient", out.gradient_low, out.gradient_high);
+  r.number("ledger", out.ledger);
+  for (CertificateLimit const& l : certificate_limits()) r.number(l.name, out.*l.limit);
+  r.finish();
+}
+
+}  // namespace
+
+void read_run(CaseReader& root, Case& out) {
+  if (auto output = root.table("output")) read_output(*output, out.output);
+  if (auto checkpoint = root.table("checkpoint")) read_checkpoint(*checkpoint, out.checkpoint.emplace());
+  if (auto limits = root.table("limits")) read_limits(*limits, out.limits);
+  if (auto relax = root.table("relax")) read_relax(*relax, out.relax.emplace());
+}
+
+void check_run(Case const& c, std::vector<CaseProblem>& found) {
+  auto const fail = [&](std::string const& key, std::string const& text) { found.push_back({key, text}); };
+  auto const range = [&](std::string const& key, double value, double low, bool low_allowed, double high,
+                         char const* reason) {
+    if (std::string const wrong = out_of_range(value, low, low_allowed, high, reason); !wrong.empty()) fail(key, wrong);
+  };
+  auto const positive = [&](std::string const& key, double value, char const* reason) {
+    range(key, value, 0, false, std::numeric_limits<double>::infinity(), reason);
+  };
+  positive("output.every", c.output.every, "seconds between frames");
+  if (c.checkpoint) {
+    positive("checkpoint.every", c.checkpoint->every, "seconds between checkpoints");
+    range("checkpoint.keep", c.checkpoint->keep, 1, true, 1000, "checkpoints kept");
+  }
+  if (c.relax) {
+    range("relax.overlap", c.relax->overlap, 0, false, 0.5, "d; relaxing ends when no contact is deeper");
+    range("relax.travel", c.relax->travel, 0, false, 0.1, "d that a point may move in one pass");
+    range("relax.passes", c.relax->passes, 1, true, 1e6, "passes");
+  }
+  LimitsCase const& l = c.limits;
+  range("limits.overlap", l.overlap, 0, false, 0.5, "d; the watch stops the run above it");
+  bool const ordered =
+      l.gradient_low > 0 && l.gradient_low < 1 && l.gradient_high > 1 && std::isfinite(l.gradient_high);
+  if (!ordered)
+    fail("limits.gradient", fmt::format("[{}, {}] must enclose 1 and be > 0: |grad phi| of a true distance is 1",
+                                        l.gradient_low, l.gradient_high));
+  positive("limits.ledger", l.ledger, "a share of the energy moved");
+  for (CertificateLimit const& limit : certificate_limits())
+    if (double const value = l.*limit.limit; !(std::isfinite(value) && value >= 0))
+      fail(std::string("limits.") + limit.name, fmt::format("{} must be >= 0: {}", value, limit.meaning));
+}
+
+std::string run_to_toml(Case const& c) {
+  std::string out = fmt::format("\n[output]\nevery = {}  # [s]\nparaview = {}\n", c.output.every, c.output.paraview);
+  if (c.checkpoint)
+    out += fmt::format("\n[checkpoint]\nevery = {}  # [s]\nkeep = {}\n", c.checkpoint->every, c.checkpoint->keep);
+  if (c.relax)
+    out += fmt::format("\n[relax]\noverlap = {}  # [d]\ntravel = {}  # [d]\npasses = {}\n", c.relax->overlap,
+                       c.relax->travel, c.relax->passes);
+  out += fmt::format("\n[limits]\noverlap = {}  # [d]\ngradient = [{}, {}]\nledger = {}\n", c.limits.overlap,
+                     c.limits.gradient_low, c.limits.gradient_high, c.limits.ledger);
+  for (CertificateLimit const& l : certificate_limits())
+    out += fmt::format("{} = {}  # {}\n", l.name, c.limits.*l.limit, l.meaning);
+  return out;
+}
+
+}  // namespace scree

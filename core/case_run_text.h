@@ -1,0 +1,21 @@
+// case_run_text.h: [output], [checkpoint], [relax] and [limits] of a case: read, judged, written back.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/case.h"
+#include "core/case_reader.h"
+
+namespace scree {
+
+void read_run(CaseReader& root, Case& out);
+
+// Appends what is wrong with the values.
+void check_run(Case const& c, std::vector<CaseProblem>& found);
+
+// The tables as TOML, every default written out; [checkpoint] and [relax] where the case has them.
+std::string run_to_toml(Case const& c);
+
+}  // namespace scree
