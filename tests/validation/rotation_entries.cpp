@@ -55,13 +55,14 @@ TEST(Validation, Row9DzhanibekovFlip) {
   Vec3 const inertia{1, 2, 3}, start{1e-3, 1, 1e-3};
   Flips const expected = flips_of(inertia, start);
   double const step = 1e-2;
-  int const steps = full() ? 1000000 : 10000;
+  int const steps = full() ? 1000000 : 10000, period = static_cast<int>(std::ceil(2 * expected.between / step));
   auto const body = free_body(inertia, start, step, step * steps);
   Simulation& s = *body;
   Vec3 const l0 = multiply(inertia, start);
   double const e0 = 0.5 * dot(start, l0);
   std::vector<double> flips;
-  double before = start.y, energy_drift = 0, momentum_drift = 0, late_drift = 0;
+  double before = start.y, energy_drift = 0, momentum_drift = 0;
+  double early_drift = 0, late_drift = 0;  // of the energy, over a whole period each
   for (int k = 1; k <= steps; ++k) {
     s.step();
     Vec3 const w = spin_in_body(s), l = to_matrix(s.impl().state.orientation[0]) * multiply(inertia, w);
@@ -69,7 +70,8 @@ TEST(Validation, Row9DzhanibekovFlip) {
     before = w.y;
     double const drift = std::abs(0.5 * dot(w, multiply(inertia, w)) / e0 - 1);
     energy_drift = std::max(energy_drift, drift);
-    if (k > steps - 3000) late_drift = std::max(late_drift, drift);  // a whole period
+    if (k <= period) early_drift = std::max(early_drift, drift);
+    if (k > steps - period) late_drift = std::max(late_drift, drift);
     momentum_drift = std::max(momentum_drift, norm(l - l0) / norm(l0));
     if (k <= 10000 && k % 50 == 0) book.point("omega_2 [rad/s] against time [s]", k * step, std::nan(""), w.y);
   }
@@ -79,7 +81,8 @@ TEST(Validation, Row9DzhanibekovFlip) {
   book.relative("from the second to the third", "s", expected.between, flips[2] - flips[1], 1e-3);
   book.at_most("largest drift of the energy", "", energy_drift, 1e-6);
   book.at_most("largest drift of the angular momentum", "", momentum_drift, 1e-6);
-  book.at_most("drift of the energy in the last period over the largest", "", late_drift / energy_drift, 1);
+  // It does not grow: what differs is where in a flip the steps happen to lie.
+  book.at_most("drift of the energy in the last period over that of the first", "", late_drift / early_drift, 1.01);
   book.trend("steps", "", steps);
 }
 
