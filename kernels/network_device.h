@@ -27,9 +27,9 @@ class NetworkDevice {
   virtual void load(SceneView const& scene, NetworkSet const& networks) = 0;
 
   // One launch: phi [partner's d] of all queries of networks, batch.group[0] .. batch.group[networks), and their
-  // gradient [body frame] where phi times the partner's diameter exceeds `gradient_from` [m]; the other gradients are
-  // left as they are. -infinity: all gradients; +infinity: none, batch.gradient may then be empty. Same bits as the
-  // CPU where its instruction set has a fused multiply-add. Throws DeviceError.
+  // gradient [body frame] where phi times the partner's diameter exceeds `gradient_from` [m]; the other gradients
+  // mean nothing afterwards. -infinity: all gradients; +infinity: none, batch.gradient may then be empty. Same bits as
+  // the CPU where its instruction set has a fused multiply-add. Throws DeviceError.
   virtual void evaluate(Queue const& queue, QueryBatch& batch, double gradient_from) = 0;
 
   // Time of the kernels of the last evaluate by the device's own clock, without the copies [s]; for benchmarks.

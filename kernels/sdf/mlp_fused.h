@@ -359,13 +359,12 @@ class FusedTile {
         g.z = ::fmaf(weight_[k * W + 2], x, g.z);
       }
       int const at = tile_.first + list_[first + lane];
-      if (norm2(q_.point[at]) > frame(at).bounding_radius * frame(at).bounding_radius && q_.cohesion_reach > 0) {
-        q_.gradient[at] = transposed_times(frame(at).rotation, to_double(g));
-        double unused = 0;
-        continue_outside(q_.point[at], frame(at).bounding_radius, unused, &q_.gradient[at]);
-      } else {
-        q_.gradient[at] = transposed_times(frame(at).rotation, to_double(g));
-      }
+      NetworkFrame const& of = frame(at);
+      q_.gradient[at] = transposed_times(of.rotation, to_double(g));
+      bool const outside = norm2(q_.point[at]) > of.bounding_radius * of.bounding_radius;
+      double unused = 0;
+      if (outside && q_.cohesion_reach > 0)
+        continue_outside(q_.point[at], of.bounding_radius, unused, &q_.gradient[at]);
     });
   }
 
