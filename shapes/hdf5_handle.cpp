@@ -107,11 +107,11 @@ Handle open_file(std::string const& file) {
   return {H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, "HDF5 cannot open it"};
 }
 
-Handle open_image(void const* bytes, std::size_t size, bool writable) {
+Handle open_image(void const* bytes, std::size_t size) {
   Handle const access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "cannot set up a file");
   require(H5Pset_fapl_core(access, 1 << 16, 0) >= 0 && H5Pset_file_image(access, const_cast<void*>(bytes), size) >= 0,
           "cannot set up a file in memory");
-  return {H5Fopen("in memory", writable ? H5F_ACC_RDWR : H5F_ACC_RDONLY, access), H5Fclose, "HDF5 cannot open it"};
+  return {H5Fopen("in memory", H5F_ACC_RDONLY, access), H5Fclose, "HDF5 cannot open it"};
 }
 
 Handle create_group(hid_t file, std::string const& path) {

@@ -58,8 +58,8 @@ class Error : public std::runtime_error {
 // A new file whose first 512 bytes belong to the container (file_container.h); an existing file that passed its check.
 Handle create_file(std::string const& file);
 Handle open_file(std::string const& file);
-// A file's bytes, copied; what is written into it stays in memory.
-Handle open_image(void const* bytes, std::size_t size, bool writable = false);
+// A file's bytes, copied, to read.
+Handle open_image(void const* bytes, std::size_t size);
 
 // Groups by path; create_group makes the missing parents too and opens what exists.
 Handle create_group(hid_t file, std::string const& path);
