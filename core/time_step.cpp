@@ -185,8 +185,7 @@ std::vector<std::string> load_problems(Case const& c, Scene const& scene) {
       if (weight <= carried) continue;
       found.push_back(fmt::format(
           "load check: the heaviest grain of '{}' weighs {:.3g} N, {:.3g} times the smallest one of '{}', which "
-          "carries "
-          "{:.3g} N at limits.overlap = {}. Multiply the stiffness of contact '{}' - '{}' by {:.3g}{}",
+          "carries {:.3g} N at limits.overlap = {}. Multiply the stiffness of contact '{}' - '{}' by {:.3g}{}",
           scene.material[b], weight, scene.mass[heaviest[b]] / scene.mass[smallest[a]], scene.material[a], carried,
           c.limits.overlap, scene.material[a], scene.material[b], weight / carried,
           law.kind == ContactLaw::winkler ? fmt::format(" (normal.kappa = {:.3g})", normal.modulus * weight / carried)
