@@ -10,6 +10,7 @@
 #include "shapes/model_file.h"
 #include "tests/support/cases.h"
 #include "tests/support/pebble_decoder.h"
+#include "tests/support/shape_kinds.h"
 
 namespace scree::testing {
 
@@ -169,6 +170,52 @@ inline Case lattice_of_all_kinds(std::filesystem::path const& folder) {
   c.wall = {open_box({0, 0, 0}, {0.32, 0.14, 0.4})};
   c.damping = DampingCase{0.5};
   c.force = {pushed("balls")};
+  return c;
+}
+
+// Two replicas of spherical harmonics and of spheres that keep apart, poured into a box; some leave at its side.
+inline Case replicas_of_harmonics(std::filesystem::path const& folder) {
+  Case c = sticky_case(ContactLaw::winkler);
+  write_model(folder / "lobes.h5", library_of_kind("harmonics"), true);
+  c.library = {{"lobes", folder / "lobes.h5"}};
+  Box const above{{0.02, 0.02, 0.01}, {0.18, 0.18, 0.12}};
+  c.grains = {poured("lobes", {"lobes:*"}, 4, 200, above, 0.06, 120),
+              poured("balls", {"sphere"}, 3, 200, above, 0.05, 120)};
+  c.grains[1].apart = true;
+  c.replicas = 2;
+  WallCase box = open_box({0, 0, 0}, {0.2, 0.2, 0.2});
+  box.open.push_back("+x");
+  c.wall = {box};
+  c.gravity = Vec3{8, 0, -9.81};
+  DeleteCase gone;
+  gone.name = "out";
+  gone.plane = true;
+  gone.point = {0.16, 0, 0};
+  gone.normal = {-1, 0, 0};
+  c.deletion = {gone};
+  c.measure = {measured("run_out"), measured("discharge_rate")};
+  c.measure[0].direction = Vec3{1, 0, 0};
+  c.measure[1].deletion = "out";
+  c.time.end = 0.05;
+  return c;
+}
+
+// Spheres that a press squeezes far beyond any impact: the automatic step has to be halved on the way. Without gravity,
+// whose fall would have been expected, and without nodes, whose entry would keep the step small.
+inline Case grains_under_a_press() {
+  Case c = sticky_case(ContactLaw::winkler);
+  c.contact[0].cohesion.reset();
+  c.gravity.reset();
+  c.grains = {grains_at("sphere", {{0, 0, 0.03}, {0.058, 0, 0.03}, {0.03, 0.05, 0.03}}, 0.06, 120)};
+  WallCase press = floor_at(0.0605);
+  press.name = "press";
+  press.normal = {0, 0, -1};
+  press.motion = MotionCase{};
+  press.motion->kind = MotionKind::translation;
+  press.motion->velocity = {0.1, 0, -0.4};
+  c.wall = {floor_at(0), press};
+  c.time.step.reset();
+  c.time.end = 0.03;
   return c;
 }
 
