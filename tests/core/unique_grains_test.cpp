@@ -2,6 +2,9 @@
 // and codes, fallbacks, and the meter itself.
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
+#if defined(__GLIBC__)
+#include <malloc.h>
+#endif
 
 #include <cmath>
 #include <filesystem>
@@ -27,6 +30,14 @@ bool constexpr memory_is_the_programs = false;  // red zones, quarantine and sha
 bool constexpr memory_is_the_programs = true;
 #endif
 
+bool one_arena() {
+#if defined(__GLIBC__)
+  return mallopt(M_ARENA_MAX, 1) == 1;
+#else
+  return false;
+#endif
+}
+
 std::vector<float> codes_near(Library const& library, int count) {
   Random random(7);
   std::vector<float> codes;
@@ -50,6 +61,8 @@ TEST(ProcessMemory, CountsWhatWasTouchedAndForgetsWhatWasFreed) {
 
 // The bar of the format: 3 kB a grain at 1,000 nodes, everything a scene keeps of it included.
 TEST(UniqueGrains, AGrainTakesLessThanThreeKilobytesOfProcessMemory) {
+  // An arena for each thread would leave pages half full, differently in every run: the allocator's, not a grain's.
+  bool const arena_is_one = one_arena();
   int const count = 1500;
   Library const library = read_model(library_file);
   CompactGrainMaker const maker(library, 0, 1000);
@@ -69,7 +82,7 @@ TEST(UniqueGrains, AGrainTakesLessThanThreeKilobytesOfProcessMemory) {
   printf("%d grains: %.0f bytes each by the process, %.0f by the arrays\n", made.made, resident, counted);
   // Refused codes leave their room empty: untouched by the process, counted by the arrays.
   EXPECT_LT(counted * made.made / count, 3000);
-  if (!memory_is_the_programs) return;
+  if (!memory_is_the_programs || !arena_is_one) return;
   EXPECT_LT(resident, 3000);
   EXPECT_GT(resident, 2000);  // 16 bits a node alone
 }
