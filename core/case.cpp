@@ -10,6 +10,7 @@
 
 #include "core/case_check.h"
 #include "core/case_effects_text.h"
+#include "core/case_keys.h"
 #include "core/case_measure_text.h"
 #include "core/case_reader.h"
 #include "core/case_run_text.h"
@@ -344,6 +345,7 @@ Case case_of(CaseNode root, std::filesystem::path const& file, std::vector<std::
   c.file = file;
   c.name = file.stem().string();
   CaseProblems problems;
+  problems.documented = [](std::string const& path) { return find_case_key(path) != nullptr; };
   read_case(CaseReader(root, "", problems), c);
   read_insert_files(c, share, problems);
   // Values that could not be read keep their defaults: judging those would only repeat the complaint.
@@ -375,6 +377,16 @@ Case load_case(std::filesystem::path const& file, std::vector<std::string> const
 
 Case case_from_text(std::string const& text, std::filesystem::path const& file) {
   return case_of(parse_case_text(text, file.string()), file, {}, {});
+}
+
+std::vector<AskedKey> keys_asked(std::string const& text) {
+  CaseNode const root = parse_case_text(text, "");
+  Case c;
+  std::vector<AskedKey> asked;
+  CaseProblems problems;
+  problems.asked = &asked;
+  read_case(CaseReader(root, "", problems), c);
+  return asked;
 }
 
 }  // namespace scree

@@ -8,7 +8,9 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/case_keys.h"
 #include "core/nearest_name.h"
+#include "core/toml_text.h"
 
 namespace scree {
 namespace {
@@ -21,7 +23,28 @@ bool is_number(CaseNode const& node) {
   return node.kind == CaseNode::Kind::integer || node.kind == CaseNode::Kind::real;
 }
 
+// Values as the reference writes them.
+std::string written(double v) { return fmt::format("{}", v); }
+std::string written(std::int64_t v) { return fmt::format("{}", v); }
+std::string written(bool v) { return v ? "true" : "false"; }
+std::string written(Vec3 v) { return fmt::format("[{}, {}, {}]", v.x, v.y, v.z); }
+std::string written(std::string const& v) { return v; }
+template <class T>
+std::string written(std::optional<T> const& v) {
+  return v ? written(*v) : "none";
+}
+template <class T>
+std::string written(std::vector<T> const&) {
+  return "none";
+}
+
 }  // namespace
+
+template <class T>
+void CaseReader::note(std::string const& key, Need need, char const* type, T const& out) {
+  if (problems_->asked)
+    problems_->asked->push_back({without_indices(path_of(key)), kind_, type, written(out), need == Need::required});
+}
 
 CaseProblems::Place CaseProblems::place_of(std::string const& key) const {
   std::string path = key;
@@ -41,6 +64,7 @@ CaseReader::CaseReader(CaseNode const& table, std::string path, CaseProblems& pr
 }
 
 CaseNode const* CaseReader::present(std::string const& key, Need need) {
+  if (problems_->documented && !problems_->documented(path_of(key))) return nullptr;  // finish() refuses it
   known_.push_back(key);
   CaseNode const* const node = node_->find(key);
   if (node)
@@ -55,7 +79,7 @@ bool CaseReader::wrong_type(std::string const& key, CaseNode const& node, std::s
   return false;
 }
 
-bool CaseReader::number(std::string const& key, double& out, Need need) {
+bool CaseReader::read_number(std::string const& key, double& out, Need need) {
   CaseNode const* const node = present(key, need);
   if (!node) return false;
   if (!is_number(*node)) return wrong_type(key, *node, "a number");
@@ -63,14 +87,20 @@ bool CaseReader::number(std::string const& key, double& out, Need need) {
   return true;
 }
 
+bool CaseReader::number(std::string const& key, double& out, Need need) {
+  note(key, need, "number", out);
+  return read_number(key, out, need);
+}
+
 bool CaseReader::number(std::string const& key, std::optional<double>& out, Need need) {
+  note(key, need, "number", out);
   double value = 0;
-  if (!number(key, value, need)) return false;
+  if (!read_number(key, value, need)) return false;
   out = value;
   return true;
 }
 
-bool CaseReader::integer(std::string const& key, std::int64_t& out, Need need) {
+bool CaseReader::read_integer(std::string const& key, std::int64_t& out, Need need) {
   CaseNode const* const node = present(key, need);
   if (!node) return false;
   if (node->kind != CaseNode::Kind::integer) return wrong_type(key, *node, "a whole number");
@@ -78,9 +108,15 @@ bool CaseReader::integer(std::string const& key, std::int64_t& out, Need need) {
   return true;
 }
 
+bool CaseReader::integer(std::string const& key, std::int64_t& out, Need need) {
+  note(key, need, "whole number", out);
+  return read_integer(key, out, need);
+}
+
 bool CaseReader::integer(std::string const& key, int& out, Need need) {
+  note(key, need, "whole number", std::int64_t{out});
   std::int64_t value = 0;
-  if (!integer(key, value, need)) return false;
+  if (!read_integer(key, value, need)) return false;
   if (value < std::numeric_limits<int>::min() || value > std::numeric_limits<int>::max()) {
     report(key, fmt::format("{} is beyond what a count can be ({})", value, std::numeric_limits<int>::max()));
     return false;
@@ -90,6 +126,7 @@ bool CaseReader::integer(std::string const& key, int& out, Need need) {
 }
 
 bool CaseReader::boolean(std::string const& key, bool& out, Need need) {
+  note(key, need, "true or false", out);
   CaseNode const* const node = present(key, need);
   if (!node) return false;
   if (node->kind != CaseNode::Kind::boolean) return wrong_type(key, *node, "true or false");
@@ -97,15 +134,22 @@ bool CaseReader::boolean(std::string const& key, bool& out, Need need) {
   return true;
 }
 
-bool CaseReader::text(std::string const& key, std::string& out, Need need) {
+bool CaseReader::read_text(std::string const& key, std::string& out, Need need) {
   CaseNode const* const node = present(key, need);
   if (!node) return false;
   if (node->kind != CaseNode::Kind::string) return wrong_type(key, *node, "a string");
   out = node->text;
+  if (key == "kind") kind_ = out;
   return true;
 }
 
+bool CaseReader::text(std::string const& key, std::string& out, Need need) {
+  note(key, need, "string", out);
+  return read_text(key, out, need);
+}
+
 bool CaseReader::texts(std::string const& key, std::vector<std::string>& out, Need need) {
+  note(key, need, "list of strings", out);
   CaseNode const* const node = present(key, need);
   if (!node) return false;
   if (node->kind != CaseNode::Kind::array) return wrong_type(key, *node, "a list of strings");
@@ -133,6 +177,7 @@ bool CaseReader::numbers(std::string const& key, CaseNode const& node, int count
 }
 
 bool CaseReader::vector(std::string const& key, Vec3& out, Need need) {
+  note(key, need, "[x, y, z]", out);
   CaseNode const* const node = present(key, need);
   double v[3];
   if (!node || !numbers(key, *node, 3, v, "three numbers [x, y, z]")) return false;
@@ -141,6 +186,7 @@ bool CaseReader::vector(std::string const& key, Vec3& out, Need need) {
 }
 
 bool CaseReader::interval(std::string const& key, double& low, double& high, Need need) {
+  note(key, need, "[low, high]", fmt::format("[{}, {}]", low, high));
   CaseNode const* const node = present(key, need);
   double v[2];
   if (!node || !numbers(key, *node, 2, v, "two numbers [low, high]")) return false;
@@ -149,6 +195,7 @@ bool CaseReader::interval(std::string const& key, double& low, double& high, Nee
 }
 
 bool CaseReader::numbers(std::string const& key, std::vector<double>& out, Need need) {
+  note(key, need, "list of numbers", out);
   CaseNode const* const node = present(key, need);
   if (!node) return false;
   bool const fits =
@@ -160,6 +207,7 @@ bool CaseReader::numbers(std::string const& key, std::vector<double>& out, Need 
 }
 
 bool CaseReader::vectors(std::string const& key, std::vector<Vec3>& out, Need need) {
+  note(key, need, "list of [x, y, z]", out);
   CaseNode const* const node = present(key, need);
   if (!node) return false;
   if (node->kind != CaseNode::Kind::array) return wrong_type(key, *node, "a list of [x, y, z]");
@@ -174,6 +222,7 @@ bool CaseReader::vectors(std::string const& key, std::vector<Vec3>& out, Need ne
 }
 
 bool CaseReader::quaternions(std::string const& key, std::vector<Quat>& out, Need need) {
+  note(key, need, "list of [w, x, y, z]", out);
   CaseNode const* const node = present(key, need);
   if (!node) return false;
   if (node->kind != CaseNode::Kind::array) return wrong_type(key, *node, "a list of [w, x, y, z]");
@@ -188,6 +237,7 @@ bool CaseReader::quaternions(std::string const& key, std::vector<Quat>& out, Nee
 }
 
 bool CaseReader::pairs(std::string const& key, std::vector<double>& first, std::vector<double>& second, Need need) {
+  note(key, need, "list of [a, b]", first);
   CaseNode const* const node = present(key, need);
   if (!node) return false;
   if (node->kind != CaseNode::Kind::array) return wrong_type(key, *node, "a list of [a, b]");
@@ -202,9 +252,10 @@ bool CaseReader::pairs(std::string const& key, std::vector<double>& first, std::
 }
 
 int CaseReader::choice_index(std::string const& key, std::vector<std::string> const& words,
-                             std::vector<std::string> const& later, Need need) {
+                             std::vector<std::string> const& later, Need need, std::string const& fallback) {
+  note(key, need, fmt::format("\"{}\"", fmt::join(words, "\", \"")).c_str(), toml_quoted(fallback));
   std::string word;
-  if (!text(key, word, need)) return -1;
+  if (!read_text(key, word, need)) return -1;
   auto const found = std::find(words.begin(), words.end(), word);
   if (found != words.end()) return static_cast<int>(found - words.begin());
   if (contains(later, word))
@@ -215,6 +266,7 @@ int CaseReader::choice_index(std::string const& key, std::vector<std::string> co
 }
 
 std::optional<CaseReader> CaseReader::table(std::string const& key, Need need) {
+  note(key, need, "table", std::string("none"));
   CaseNode const* const node = present(key, need);
   if (!node) return std::nullopt;
   if (node->kind != CaseNode::Kind::table) {
@@ -225,6 +277,7 @@ std::optional<CaseReader> CaseReader::table(std::string const& key, Need need) {
 }
 
 std::vector<CaseReader> CaseReader::tables(std::string const& key) {
+  note(key, Need::optional, "list of tables", std::string("none"));
   std::vector<CaseReader> readers;
   CaseNode const* const node = present(key);
   if (!node) return readers;

@@ -20,6 +20,15 @@ struct CaseProblem {
   std::string text;
 };
 
+// One key that was asked for, as the code that reads it has it: the reference is made from these.
+struct AskedKey {
+  std::string path;      // without the indices of list entries
+  std::string kind;      // of the table, where it was read before; "": keys that all kinds have
+  std::string type;      // "number", "[x, y, z]", ...; "": only looked for
+  std::string fallback;  // what stays without it, as the case file would write it
+  bool required = false;
+};
+
 // Problems of one case, and where each key was written.
 struct CaseProblems {
   struct Place {
@@ -28,6 +37,8 @@ struct CaseProblems {
   };
   std::map<std::string, Place> place;  // of every key that was present
   std::vector<CaseProblem> found;
+  bool (*documented)(std::string const& path) = nullptr;  // set: keys that it does not know are unknown
+  std::vector<AskedKey>* asked = nullptr;                 // set: every key asked for is noted here
 
   void add(std::string key, std::string text) { found.push_back({std::move(key), std::move(text)}); }
   Place place_of(std::string const& key) const;  // of the key, or of the nearest table around it
@@ -61,8 +72,12 @@ class CaseReader {
   bool choice(std::string const& key, T& out, std::vector<std::pair<std::string, T>> const& choices,
               std::vector<std::string> const& later = {}, Need need = Need::optional) {
     std::vector<std::string> words;
-    for (auto const& [word, value] : choices) words.push_back(word);
-    int const index = choice_index(key, words, later, need);
+    std::string fallback;
+    for (auto const& [word, value] : choices) {
+      words.push_back(word);
+      if (value == out) fallback = word;
+    }
+    int const index = choice_index(key, words, later, need, fallback);
     if (index < 0) return false;
     out = choices[index].second;
     return true;
@@ -80,12 +95,19 @@ class CaseReader {
 
  private:
   int choice_index(std::string const& key, std::vector<std::string> const& words, std::vector<std::string> const& later,
-                   Need need);
+                   Need need, std::string const& fallback);
+  // For the reference, where one is being made: what is asked for. Before anything is read into `out`.
+  template <class T>
+  void note(std::string const& key, Need need, char const* type, T const& out);
   bool wrong_type(std::string const& key, CaseNode const& node, std::string const& wanted);
   bool numbers(std::string const& key, CaseNode const& node, int count, double* out, std::string const& wanted);
+  bool read_number(std::string const& key, double& out, Need need);
+  bool read_integer(std::string const& key, std::int64_t& out, Need need);
+  bool read_text(std::string const& key, std::string& out, Need need);
 
   CaseNode const* node_;
   std::string path_;
+  std::string kind_;  // value of the key `kind`, once it is read
   CaseProblems* problems_;
   std::vector<std::string> known_;
   std::vector<std::string> later_;

@@ -35,6 +35,7 @@ using Memory = std::vector<double>;
 
 struct MeasureKind {
   char const* name;
+  char const* meaning;                          // its quantities and what the keys do to them, Markdown
   std::vector<char const*> required, optional;  // keys, see core/case_measure_text.cpp
   bool region_needed = false;                   // box or cylinder
   std::vector<Quantity> (*quantities)(MeasureView const&);

@@ -1,4 +1,4 @@
-// scree.cpp: the engine's program: run, plan, check, info, energy, render, report, export,
+// scree.cpp: the engine's program: run, plan, check, keys, info, energy, render, report, export,
 // envelopes, validate.
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
@@ -68,6 +68,12 @@ void add_check(CLI::App& app, CaseArguments& a, std::function<int()>& chosen) {
   CLI::App* const check = app.add_subcommand("check", "Check a case and the model files it names");
   add_case_options(*check, a);
   check->callback([&] { chosen = [&] { return check_command(a); }; });
+}
+
+void add_keys(CLI::App& app, std::string& prefix, std::function<int()>& chosen) {
+  CLI::App* const c = app.add_subcommand("keys", "Print the reference of the case file's keys (Markdown)");
+  c->add_option("prefix", prefix, "Only keys that start with it: wall, grains.insert (default: all)");
+  c->callback([&] { chosen = [&] { return keys_command(prefix); }; });
 }
 
 void add_info(CLI::App& app, InfoArguments& a, std::function<int()>& chosen) {
@@ -233,6 +239,7 @@ int main(int argc, char** argv) {
   std::function<int()> chosen;
   RunArguments run;
   CaseArguments plan, check;
+  std::string keys;
   InfoArguments info;
   EnergyArguments energy;
   RenderArguments render;
@@ -243,6 +250,7 @@ int main(int argc, char** argv) {
   add_run(app, run, chosen);
   add_plan(app, plan, chosen);
   add_check(app, check, chosen);
+  add_keys(app, keys, chosen);
   add_info(app, info, chosen);
   add_energy(app, energy, chosen);
   add_render(app, render, chosen);

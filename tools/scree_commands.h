@@ -105,6 +105,7 @@ struct ValidateArguments {
 int run_command(RunArguments const& arguments);
 int plan_command(CaseArguments const& arguments);
 int check_command(CaseArguments const& arguments);
+int keys_command(std::string const& prefix);
 int info_command(InfoArguments const& arguments);
 int render_command(RenderArguments const& arguments);
 int energy_command(EnergyArguments const& arguments);

@@ -1,4 +1,4 @@
-// scree_show.cpp: the commands that look and do not step: plan, check, info, export.
+// scree_show.cpp: the commands that look and do not step: plan, check, keys, info, export.
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "core/case.h"
+#include "core/case_reference.h"
 #include "core/overlap_meter.h"
 #include "core/paraview.h"
 #include "core/results.h"
@@ -160,6 +161,13 @@ int check_command(CaseArguments const& arguments) {
   Plan const plan = simulation_of(arguments, c).plan();
   fmt::print("{}: good: {} bodies of {} shapes\n", arguments.file.string(), plan.bodies, plan.shapes);
   for (std::string const& note : plan.notes) fmt::print("note: {}\n", note);
+  return exit_ok;
+}
+
+int keys_command(std::string const& prefix) {
+  std::string const reference = case_reference(prefix);
+  if (reference.empty()) throw InputError({fmt::format("no key of the case file starts with '{}'", prefix)});
+  fmt::print("{}", reference);
   return exit_ok;
 }
 
