@@ -173,8 +173,8 @@ CaseKey constexpr table[] = {
     {"wall.name", "", "", "of this entry"},
     {"wall.material", "", "", "name of a `[[material]]`"},
     {"wall.kind", "", "",
-     "`\"mesh\"`: STL, OBJ or PLY; `\"terrain\"`: ESRI ASCII grid (x, y from its lower left corner, cells "
-     "without data are holes)"},
+     "`\"mesh\"`: STL, OBJ or PLY; `\"terrain\"`: ESRI ASCII grid (x, y from its lower left corner), solid "
+     "straight below its surface and nothing beside it, cells without data are holes"},
     {"wall.side", "", "", "where the grains are (mesh: of a closed one); `\"outside\"`: it is a solid"},
     {"wall.point", "", "", "[m]"},
     {"wall.normal", "", "", "points into the free space, any length"},

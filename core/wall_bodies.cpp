@@ -216,7 +216,7 @@ struct Builder {
     Vec3 const reach = bounded ? half + Vec3{1, 1, 1} * s.record.half_wall : Vec3{endless, endless, endless};
     s.record.box = {-reach, reach};
     s.record.bounding_radius = bounded ? norm(reach) : infinity;
-    s.mesh = std::make_shared<MeshTree const>(mesh, MeshBorder::open);
+    s.mesh = std::make_shared<MeshTree const>(terrain ? terrain_ground(mesh) : mesh, MeshBorder::open);
     if (sheet)
       s.record.half_thickness = s.record.half_wall;
     else if (bounded)

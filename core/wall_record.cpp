@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "core/wall_surface.h"
+#include "shapes/terrain_file.h"
 
 namespace scree {
 namespace {
@@ -34,10 +35,14 @@ WallSolidKind kind_of(ShapeRecord const& shape, WallKind wall) {
   }
 }
 
-// The scene repeats corners for each triangle; a file has each once.
-TriangleMesh mesh_of(ShapeRecord const& shape, Scene const& scene) {
-  Vec3 const* const corner = scene.mesh_corner.data() + 3 * std::size_t(shape.first_triangle);
-  std::vector<int> order(3 * std::size_t(shape.triangles)), number(order.size());
+// The scene repeats corners for each triangle; a file has each once. Of a terrain only the surface.
+TriangleMesh mesh_of(ShapeRecord const& shape, WallKind wall, Scene const& scene) {
+  Vec3 const* const first = scene.mesh_corner.data() + 3 * std::size_t(shape.first_triangle);
+  std::vector<Vec3> corner;
+  for (int t = 0; t < shape.triangles; ++t)
+    if (Vec3 const* const c = first + 3 * t; wall != WallKind::terrain || !is_terrain_side(c[0], c[1], c[2]))
+      corner.insert(corner.end(), c, c + 3);
+  std::vector<int> order(corner.size()), number(corner.size());
   std::iota(order.begin(), order.end(), 0);
   auto const key = [&](int i) { return std::tuple(corner[i].x, corner[i].y, corner[i].z, i); };
   std::sort(order.begin(), order.end(), [&](int a, int b) { return key(a) < key(b); });
@@ -46,8 +51,7 @@ TriangleMesh mesh_of(ShapeRecord const& shape, Scene const& scene) {
     if (k == 0 || corner[order[k]] != corner[order[k - 1]]) mesh.vertex.push_back(corner[order[k]]);
     number[order[k]] = static_cast<int>(mesh.vertex.size()) - 1;
   }
-  for (int t = 0; t < shape.triangles; ++t)
-    mesh.triangle.push_back({number[3 * t], number[3 * t + 1], number[3 * t + 2]});
+  for (std::size_t i = 0; i < number.size(); i += 3) mesh.triangle.push_back({number[i], number[i + 1], number[i + 2]});
   return mesh;
 }
 
@@ -91,7 +95,7 @@ std::vector<ResultsWallBody> recorded_wall_bodies(Case const& c, Scene const& sc
     w.position = body.position;
     w.orientation = body.orientation;
     if (shape.sdf == SdfKind::mesh) {
-      w.mesh = mesh_of(shape, scene);
+      w.mesh = mesh_of(shape, wall.kind, scene);
       w.half_wall = shape.half_wall;
     } else {
       w.formula = shape.analytic;

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "core/results_walls.h"
+#include "shapes/terrain_file.h"
 
 namespace scree {
 namespace {
@@ -186,7 +187,9 @@ TriangleMesh posed_wall(ResultsHeader const& header, Frame const& frame, int ind
 }
 
 WallPhi::WallPhi(ResultsWallBody const& wall) : wall_(&wall) {
-  if (wall.kind >= WallSolidKind::mesh) tree_ = std::make_unique<MeshTree>(wall.mesh, MeshBorder::open);
+  if (wall.kind < WallSolidKind::mesh) return;
+  bool const terrain = wall.kind == WallSolidKind::terrain;
+  tree_ = std::make_unique<MeshTree>(terrain ? terrain_ground(wall.mesh) : wall.mesh, MeshBorder::open);
 }
 
 double WallPhi::operator()(Vec3 point, Vec3* gradient) const {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <map>
 #include <string>
 #include <utility>
 
@@ -102,6 +103,39 @@ TriangleMesh parse_terrain(std::filesystem::path const& file, std::string const&
   check_coordinates(file, mesh);
   if (mesh.triangle.empty()) fail_file(file, "no four neighbouring values have data: there is no surface");
   return mesh;
+}
+
+TriangleMesh terrain_ground(TriangleMesh surface) {
+  if (surface.triangle.empty()) return surface;
+  std::map<std::pair<int, int>, int> uses;  // of an edge in one direction; neighbours run it in opposite ones
+  for (auto const& t : surface.triangle)
+    for (int k = 0; k < 3; ++k) ++uses[{t[k], t[(k + 1) % 3]}];
+  Vec3 low = surface.vertex[surface.triangle[0][0]], high = low;
+  for (auto const& t : surface.triangle)
+    for (int const v : t)
+      for (int k = 0; k < 3; ++k) {
+        low[k] = std::min(low[k], surface.vertex[v][k]);
+        high[k] = std::max(high[k], surface.vertex[v][k]);
+      }
+  double const bottom = low.z - std::max(high.x - low.x, high.y - low.y);
+  std::map<int, int> foot;  // vertex at the bottom below a vertex of the border
+  auto const below = [&](int v) {
+    auto const [at, is_new] = foot.try_emplace(v, static_cast<int>(surface.vertex.size()));
+    if (is_new) surface.vertex.push_back({surface.vertex[v].x, surface.vertex[v].y, bottom});
+    return at->second;
+  };
+  for (auto const& [edge, n] : uses) {
+    auto const [a, b] = edge;
+    if (uses.contains({b, a})) continue;
+    int const under_a = below(a), under_b = below(b);
+    surface.triangle.insert(surface.triangle.end(), {{b, a, under_a}, {b, under_a, under_b}});
+  }
+  return surface;
+}
+
+bool is_terrain_side(Vec3 a, Vec3 b, Vec3 c) {
+  auto const above = [](Vec3 p, Vec3 q) { return p.x == q.x && p.y == q.y; };
+  return above(a, b) || above(b, c) || above(c, a);
 }
 
 }  // namespace scree
