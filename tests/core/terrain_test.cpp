@@ -131,7 +131,7 @@ TEST_F(TerrainBorder, NothingActsBeyondIt) {
 
 TEST_F(TerrainBorder, ResultsKeepTheSurfaceWithoutItsSides) {
   Case const c = over_the_border(0.2, {0.6, 0.6, 0.5}, {}, 0);
-  Simulation const s(c, {});
+  Simulation s(c, {});
   std::vector<ResultsWallBody> const wall = recorded_wall_bodies(c, s.impl().scene);
   ASSERT_EQ(wall.size(), 1u);
   EXPECT_EQ(wall[0].mesh.vertex.size(), 36u);
