@@ -77,8 +77,15 @@ Outcome collect(std::string const& entry, EntryFiles const& files, int status, d
   }
   bool const told = std::any_of(out.rows.begin(), out.rows.end(), [](BookRow const& r) { return !r.passed; });
   if (!out.trouble.empty() && !told) {
-    BookRow row{"book", entry, "comes to its end", out.trouble + "; its words are in book.log", "", "at_most"};
-    row.expected = 0, row.measured = 1, row.seconds = seconds, row.source = "the book";
+    BookRow const row{.part = "book",
+                      .id = entry,
+                      .title = "comes to its end",
+                      .figure = out.trouble + "; its words are in book.log",
+                      .unit = "",
+                      .bound = "at_most",
+                      .measured = 1,
+                      .source = "the book",
+                      .seconds = seconds};
     out.rows.push_back(row);
   }
   return out;

@@ -80,7 +80,9 @@ TEST(Tree, EveryFileHasItsHead) {
 
 TEST(Tree, HeadersAreGuarded) {
   for (std::string const& file : source_files(root))
-    if (file.ends_with(".h")) EXPECT_NE(read_text(root / file).find("\n#pragma once\n"), std::string::npos) << file;
+    if (file.ends_with(".h")) {
+      EXPECT_NE(read_text(root / file).find("\n#pragma once\n"), std::string::npos) << file;
+    }
 }
 
 TEST(Tree, NoFileIsNamedForNothing) {

@@ -240,7 +240,9 @@ TEST(Blockage, IsAWaitThatIsTooLongWhileGrainsRemain) {
   EXPECT_NEAR(m["region.longest"].last, 0.2, 3e-3);
   EXPECT_EQ(m["region.count"].last, 0);
   for (MeasureRow const& row : s.measure_rows())
-    if (row.measure == 0) EXPECT_EQ(row.value[0], row.time > 0.56 ? 1 : 0) << row.time;
+    if (row.measure == 0) {
+      EXPECT_EQ(row.value[0], row.time > 0.56 ? 1 : 0) << row.time;
+    }
 }
 
 }  // namespace

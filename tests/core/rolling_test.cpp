@@ -109,7 +109,9 @@ TEST(Rolling, ABallRocksAndRingsDown) {
     double const decay = std::log(largest[1] / largest.back()) / swings;
     EXPECT_NEAR(decay, pi * eta / std::sqrt(1 - eta * eta), 0.02 + 0.18 * pi * eta) << "eta " << eta;
     EXPECT_LT(std::abs(s.ledger().residual), 1e-3 * s.ledger().moved);
-    if (eta == 0) EXPECT_LT(std::abs(s.ledger().rolling), 1e-3 * s.ledger().moved);
+    if (eta == 0) {
+      EXPECT_LT(std::abs(s.ledger().rolling), 1e-3 * s.ledger().moved);
+    }
   }
 }
 

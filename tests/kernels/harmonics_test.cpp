@@ -152,7 +152,9 @@ TEST(RadialDistance, OfASphereIsItsDistance) {
   for (Vec3 x : {Vec3{0.1, 0.2, -0.3}, Vec3{1, -2, 3}, Vec3{0, 0, 0.2}, Vec3{0, 0, -2}, Vec3{0, 0, 0}}) {
     Vec3 gradient;
     EXPECT_NEAR(radial_distance(c, x, &gradient), 0.5 - norm(x), 1e-15);
-    if (norm(x) > 0) EXPECT_LT(norm(gradient + normalized(x)), 1e-15);
+    if (norm(x) > 0) {
+      EXPECT_LT(norm(gradient + normalized(x)), 1e-15);
+    }
   }
 }
 
