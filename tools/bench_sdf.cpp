@@ -8,8 +8,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <ctime>
-#include <fstream>
 #include <functional>
 #include <map>
 #include <random>
@@ -17,6 +15,7 @@
 #include "kernels/base/build_info.h"
 #include "kernels/sdf/sdf_batch.h"
 #include "tools/bench/opponents.h"
+#include "tools/measured_on.h"
 
 namespace scree::bench {
 namespace {
@@ -227,20 +226,6 @@ class Progress final : public benchmark::BenchmarkReporter {
  private:
   std::size_t runs_, done_ = 0;
 };
-
-std::string cpu_name() {
-  std::ifstream file("/proc/cpuinfo");
-  for (std::string line; std::getline(file, line);)
-    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
-  return "unknown";
-}
-
-std::string utc_date() {
-  std::time_t const t = std::time(nullptr);
-  char text[32];
-  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", std::gmtime(&t));
-  return text;
-}
 
 std::string blas() {
 #if defined(SCREE_BENCH_TORCH)

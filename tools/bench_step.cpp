@@ -8,18 +8,16 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <chrono>
-#include <ctime>
 #include <filesystem>
 #include <fstream>
-#include <map>
 #include <memory>
 #include <random>
 
 #include "core/results.h"
-#include "core/simulation_impl.h"
 #include "kernels/base/build_info.h"
 #include "kernels/sdf/sdf_batch.h"
+#include "tools/measured_on.h"
+#include "tools/step_meter.h"
 
 namespace scree::bench {
 namespace {
@@ -39,18 +37,6 @@ struct Options {
   std::string output;
 };
 
-double median(std::vector<double> v) {
-  if (v.empty()) return 0;
-  std::nth_element(v.begin(), v.begin() + v.size() / 2, v.end());
-  return v[v.size() / 2];
-}
-
-double process_seconds() {
-  timespec t{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
-
 // The case of a results file is text in its header; the reader of cases takes files.
 Case case_of(ResultsHeader const& header, std::vector<std::string> const& overrides) {
   fs::path const file = fs::temp_directory_path() / fmt::format("bench_step_{}.toml", std::random_device{}());
@@ -65,138 +51,48 @@ Case case_of(ResultsHeader const& header, std::vector<std::string> const& overri
   }
 }
 
-// Grains of the library let fall into a box and damped to rest.
-Case heap(Options const& o) {
-  Case c;
-  c.name = "bench_step";
-  c.gravity = Vec3{0, 0, -9.81};
-  c.library = {{"grains", o.library}};
-  c.material = {{"rock", 2650}};
-  ContactCase contact;
-  contact.pair = {"rock", "rock"};
-  contact.friction = 0.5;
-  contact.damping_ratio = 0.7;
-  c.contact = {contact};
-  double const d = 0.1, side = d * std::max(2.5, 1.4 * std::cbrt(o.grains));
-  GrainsCase g;
-  g.name = "grain";
-  g.material = "rock";
-  g.shapes = {"grains:*"};
-  g.nodes = o.nodes;
-  g.count = o.grains;
-  g.diameter = d;
-  g.insert.box = {{0, 0, 0}, {side, side, 1000 * side}};
-  c.grains = {g};
-  WallCase w;
-  w.name = "container";
-  w.material = "rock";
-  w.kind = WallKind::box;
-  w.max = {side, side, 1001 * side};
-  w.open = {"+z"};
-  c.wall = {w};
-  c.time.end = o.fall;
-  c.time.settle = SettleCase{5, 0.4 * o.fall, 1e-8, 0.02};
-  c.limits.overlap = 0.5;
-  return c;
-}
-
 std::unique_ptr<Simulation> simulation_of(Options const& o) {
   if (!o.state.empty()) {
     ResultsReader const reader(o.state);
     return std::make_unique<Simulation>(case_of(reader.header(), o.overrides), SimulationOptions{},
                                         reader.frame(o.frame));
   }
-  auto s = std::make_unique<Simulation>(heap(o), SimulationOptions{.threads = 2});
+  auto s = std::make_unique<Simulation>(heap_case({{"grains", o.library}}, {"grains:*"}, o.grains, o.nodes, o.fall),
+                                        SimulationOptions{.threads = 2});
   while (s->step() == RunState::running) {
   }
   return s;
 }
 
-// What the steps of one round did.
-struct Counts {
-  std::int64_t rebuilt = 0, block = 0, listed = 0, active = 0;
-
-  Counts since(Counts const& b) const {
-    return {rebuilt - b.rebuilt, block - b.block, listed - b.listed, active - b.active};
-  }
-};
-
-struct Subject {
-  std::string name;
-  int threads = 1;
-  State state;
-  Workspace work;
-  std::vector<double> wall, cpu;         // a round each [s]
-  std::map<std::string, double> stages;  // of the last round [s]
-  Counts counts;                         // a round, the same each time
-};
-
 class Contest {
  public:
-  explicit Contest(Options const& o) : options_(o), simulation_(simulation_of(o)) {
-    Simulation::Impl& impl = simulation_->impl();
-    impl.c.time.end = 1e9;
-    impl.effects.settle = false;
-    State const rest = impl.state;
-    Workspace const work = impl.work;
+  explicit Contest(Options const& o) : options_(o), simulation_(simulation_of(o)), meter_(*simulation_) {
+    State const rest = simulation_->impl().state;
+    Workspace const work = simulation_->impl().work;
     warm_up("rest", rest, work);
-    State flowing = rest;
-    std::mt19937_64 random(1);
-    for (Vec3& v : flowing.velocity)  // by hand: distributions differ between standard libraries
-      for (int k = 0; k < 3; ++k) v[k] = o.speed * (static_cast<double>(random() >> 11) * 0x1p-52 - 1);
-    warm_up("flowing", flowing, work);
+    warm_up("flowing", flowing(rest, o.speed), work);
   }
 
-  void measure(Subject& s) {
-    Simulation::Impl& impl = restore(s);
-    impl.profile.clear();
-    Counts const before = counts_of(impl);
-    std::int64_t active = 0;
-    double const cpu = process_seconds();
-    auto const begin = std::chrono::steady_clock::now();
-    for (int k = 0; k < options_.steps; ++k) {
-      simulation_->step();
-      active += impl.work.active.first.empty() ? 0 : impl.work.active.first.back();
-    }
-    s.wall.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
-    s.cpu.push_back(process_seconds() - cpu);
-    s.counts = counts_of(impl).since(before);
-    s.counts.active = active;
-    s.stages.clear();
-    for (auto const& e : impl.profile.entries()) s.stages[e.name] = e.seconds;
-  }
-
-  std::vector<Subject>& subjects() { return subjects_; }
+  void measure(SteppedScene& s) { meter_.measure(s, options_.steps); }
+  std::vector<SteppedScene>& subjects() { return subjects_; }
   Simulation& simulation() { return *simulation_; }
 
  private:
-  Simulation::Impl& restore(Subject const& s) {
-    Simulation::Impl& impl = simulation_->impl();
-    impl.state = s.state;
-    impl.work = s.work;
-    impl.run_state = RunState::running;
-    impl.queue.threads = s.threads;
-    return impl;
-  }
-  static Counts counts_of(Simulation::Impl const& impl) {
-    NodeLists const& lists = impl.work.gather.lists;
-    return {lists.rebuilt, lists.block_queries, impl.work.active.queries, 0};
-  }
   void warm_up(std::string const& name, State const& state, Workspace const& work) {
-    Simulation::Impl& impl = restore({name, 1, state, work, {}, {}, {}, {}});
-    for (int k = 0; k < options_.warm_up; ++k) simulation_->step();
-    for (int threads : options_.threads) subjects_.push_back({name, threads, impl.state, impl.work, {}, {}, {}, {}});
+    SteppedScene const warm = meter_.warm(name, state, work, options_.warm_up);
+    for (int threads : options_.threads) subjects_.push_back(warm), subjects_.back().threads = threads;
   }
 
   Options options_;
   std::unique_ptr<Simulation> simulation_;
-  std::vector<Subject> subjects_;
+  StepMeter meter_;
+  std::vector<SteppedScene> subjects_;
 };
 
 // The figures of one subject, by name.
-std::vector<std::pair<std::string, double>> figures(Contest& c, Subject const& s, Options const& o) {
+std::vector<std::pair<std::string, double>> figures(Contest& c, SteppedScene const& s, Options const& o) {
   double const wall = median(s.wall) / o.steps, steps = o.steps;
-  double const queries = static_cast<double>(s.counts.block + s.counts.listed + s.counts.active) / steps;
+  double const queries = static_cast<double>(s.counts.queries()) / steps;
   return {{"particle_steps_per_second", c.simulation().bodies() / wall},
           {"us_per_step", 1e6 * wall},
           {"cpu_us_per_step", 1e6 * median(s.cpu) / o.steps},
@@ -210,7 +106,7 @@ std::vector<std::pair<std::string, double>> figures(Contest& c, Subject const& s
           {"sides", static_cast<double>(s.work.gather.lists.side.size())}};
 }
 
-std::vector<std::pair<std::string, double>> shares(Subject const& s) {
+std::vector<std::pair<std::string, double>> shares(SteppedScene const& s) {
   std::vector<std::pair<std::string, double>> out(s.stages.begin(), s.stages.end());
   double const total = s.wall.back();
   for (auto& [name, seconds] : out) seconds /= total;
@@ -221,7 +117,7 @@ std::vector<std::pair<std::string, double>> shares(Subject const& s) {
 void print_table(Contest& c, Options const& o) {
   fmt::print("{} grains, time step {:.3g} s, {} steps a round, medians of {} rounds\n", c.simulation().bodies(),
              c.simulation().time_step(), o.steps, o.rounds);
-  for (Subject const& s : c.subjects()) {
+  for (SteppedScene const& s : c.subjects()) {
     fmt::print("\n{}, {} thread(s)\n", s.name, s.threads);
     for (auto const& [name, value] : figures(c, s, o)) fmt::print("  {:<28} {:>14.1f}\n", name, value);
     for (auto const& [name, share] : shares(s))
@@ -237,18 +133,15 @@ std::string json_object(std::vector<std::pair<std::string, double>> const& value
 }
 
 void write_json(Contest& c, Options const& o) {
-  std::time_t const now = std::time(nullptr);
-  char date[32];
-  std::strftime(date, sizeof date, "%Y-%m-%dT%H:%M:%SZ", std::gmtime(&now));
   auto out = fmt::output_file(o.output);
   out.print("{{\n  \"program\": \"bench_step\", \"commit\": \"{}\", \"compiler\": \"{}\", \"date\": \"{}\",\n",
-            build_info().commit, build_info().compiler, date);
+            build_info().commit, build_info().compiler, utc_date());
   out.print("  \"isa\": \"{}\", \"state\": \"{}\", \"grains\": {}, \"time_step\": {:.6g},\n", sdf_isa(),
             o.state.empty() ? "heap" : o.state.filename().string(), c.simulation().bodies(),
             c.simulation().time_step());
   out.print("  \"steps\": {}, \"rounds\": {},\n  \"results\": [", o.steps, o.rounds);
   char const* separator = "\n";
-  for (Subject const& s : c.subjects()) {
+  for (SteppedScene const& s : c.subjects()) {
     out.print("{}    {{\"scene\": \"{}\", \"threads\": {},\n     \"figures\": {},\n     \"shares\": {}}}", separator,
               s.name, s.threads, json_object(figures(c, s, o), "{:.1f}"), json_object(shares(s), "{:.4f}"));
     separator = ",\n";
@@ -285,7 +178,7 @@ int run(int argc, char** argv) {
   if (benchmark::ReportUnrecognizedArguments(count, pointers.data())) return 2;
 
   Contest contest(o);
-  for (Subject& s : contest.subjects())
+  for (SteppedScene& s : contest.subjects())
     benchmark::RegisterBenchmark(fmt::format("{}/threads:{}", s.name, s.threads).c_str(),
                                  [&](benchmark::State& state) {
                                    for (auto _ : state) {

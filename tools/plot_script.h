@@ -10,6 +10,7 @@ namespace scree {
 // The scripts' texts, each in a source that CMake makes from tools/python/<name>.py for the programs that use it.
 extern char const plot_book_text[];
 extern char const plot_certificate_text[];
+extern char const plot_cost_text[];
 extern char const plot_energy_text[];
 extern char const plot_envelopes_text[];
 extern char const plot_study_text[];

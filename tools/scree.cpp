@@ -1,5 +1,5 @@
 // scree.cpp: the engine's program: run, plan, check, keys, info, energy, render, report, export,
-// envelopes, validate.
+// envelopes, validate, cost.
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
@@ -195,6 +195,21 @@ void add_validate(CLI::App& app, ValidateArguments& a, std::function<int()>& cho
   c->callback([&] { chosen = [&] { return validate_command(a); }; });
 }
 
+void add_cost(CLI::App& app, CostArguments& a, std::function<int()>& chosen) {
+  CLI::App* const c = app.add_subcommand(
+      "cost", "Measure what accuracy costs in time on this machine: error and time of evaluators and node counts");
+  c->add_option("-o,--output", a.output, "Folder for tables and the picture; its heap.h5 is used again")
+      ->capture_default_str();
+  c->add_option("--library", a.library, "The shipped grains.h5 (default: looked for)");
+  c->add_option("--nodes", a.nodes, "Node counts a grain (default: 250,1000,4000,16000)")
+      ->delimiter(',')
+      ->check(CLI::Range(100, 256000));
+  c->add_flag("--large", a.large, "64,000 nodes, too, compared with 256,000: an hour");
+  c->add_flag("--quick", a.quick, "Seconds: shows that it works, its figures mean nothing");
+  a.share = share_folder();
+  c->callback([&] { chosen = [&] { return cost_command(a); }; });
+}
+
 int complain(ExitCode code, std::string const& what) {
   std::fflush(stdout);
   fmt::print(stderr, "scree: error: {}\n", what);
@@ -247,6 +262,7 @@ int main(int argc, char** argv) {
   ExportArguments exported;
   EnvelopesArguments envelopes;
   ValidateArguments validate;
+  CostArguments cost;
   add_run(app, run, chosen);
   add_plan(app, plan, chosen);
   add_check(app, check, chosen);
@@ -258,6 +274,7 @@ int main(int argc, char** argv) {
   add_export(app, exported, chosen);
   add_envelopes(app, envelopes, chosen);
   add_validate(app, validate, chosen);
+  add_cost(app, cost, chosen);
   try {
     app.parse(argc, argv);
   } catch (CLI::ParseError const& error) {

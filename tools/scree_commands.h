@@ -102,6 +102,14 @@ struct ValidateArguments {
   int threads = 0;    // entries at once; 0: all cores
 };
 
+struct CostArguments {
+  std::filesystem::path output = "cost.out";
+  std::filesystem::path library, share;  // grains.h5; empty: looked for; where installed libraries lie
+  std::vector<int> nodes;                // a grain; empty: 250 to 16,000
+  bool large = false;                    // 64,000 nodes, too, compared with 256,000
+  bool quick = false;                    // seconds, for figures that mean nothing
+};
+
 int run_command(RunArguments const& arguments);
 int plan_command(CaseArguments const& arguments);
 int check_command(CaseArguments const& arguments);
@@ -113,6 +121,7 @@ int report_command(ReportArguments const& arguments);
 int export_command(ExportArguments const& arguments);
 int envelopes_command(EnvelopesArguments const& arguments);
 int validate_command(ValidateArguments const& arguments);
+int cost_command(CostArguments const& arguments);
 int export_surfaces(ExportArguments const& arguments);  // where arguments.surfaces is set
 
 // Threads to use: all cores unless the user says otherwise.
