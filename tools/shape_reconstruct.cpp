@@ -19,6 +19,7 @@
 #include "shapes/mesh/mesh_check.h"
 #include "shapes/mesh/mesh_compare.h"
 #include "shapes/mesh/mesh_distance.h"
+#include "shapes/mesh/untangle.h"
 #include "shapes/mesh_files.h"
 #include "shapes/model_file.h"
 #include "shapes/text_lines.h"
@@ -97,7 +98,15 @@ TriangleMesh by_marching(ShapeSource const& source, ReconstructArguments const& 
   ZeroSet const set = refine(source.phi, find_zero_set(source.phi, options));
   fmt::print("  {} part{}, |phi| at vertices at most {:.1e} {}\n", set.components, set.components == 1 ? "" : "s",
              set.worst_phi, source.unit);
-  return set.mesh;
+  // Beside edges sharper than a cell vertices that were moved onto phi = 0 may have passed each other.
+  TriangleMesh mesh = set.mesh;
+  Untangled const u = untangle(mesh);
+  if (u.vertices > 0)
+    fmt::print("  {} vertices beside sharp edges moved by at most {:.1e} {}, where the surface cut through itself\n",
+               u.vertices, u.farthest, source.unit);
+  if (!u.is_simple)
+    fmt::print("  the surface still cuts through itself: import refuses it; use more --cells, or --method alpha\n");
+  return mesh;
 }
 
 void report(ShapeSource const& source, TriangleMesh const& mesh, ReconstructArguments const& a) {

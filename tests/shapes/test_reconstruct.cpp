@@ -14,6 +14,7 @@
 #include "shapes/mesh/mesh_compare.h"
 #include "shapes/mesh/mesh_measures.h"
 #include "shapes/mesh/procedural_grains.h"
+#include "shapes/mesh/untangle.h"
 #include "shapes/mesh_samples.h"
 #include "shapes/random.h"
 #include "shapes/support_points.h"
@@ -27,6 +28,26 @@ TriangleMesh crescent() { return procedural_grain(GrainKind::sand, 4).mesh; }
 TriangleMesh moved(TriangleMesh mesh, Vec3 by) {
   for (Vec3& v : mesh.vertex) v += by;
   return mesh;
+}
+
+TEST(Untangle, TakesASpikeBackAndLeavesTheRestAlone) {
+  TriangleMesh const ball = icosphere(3);
+  TriangleMesh mesh = ball;
+  EXPECT_EQ(untangle(mesh).vertices, 0);
+  mesh.vertex[0] = ball.vertex[0] * -1.2;  // through the far side, about 2.2 away
+  TriangleMesh const spiked = mesh;
+  EXPECT_TRUE(check_mesh(mesh).self_intersecting);
+  Untangled const u = untangle(mesh);
+  EXPECT_TRUE(u.is_simple);
+  EXPECT_FALSE(check_mesh(mesh).self_intersecting);
+  int changed = 0;
+  for (std::size_t v = 0; v < mesh.vertex.size(); ++v) changed += !(mesh.vertex[v] == spiked.vertex[v]);
+  EXPECT_EQ(changed, u.vertices);
+  EXPECT_LT(changed, 40);  // of 642: the spike, its neighbours and the triangles that they pierced
+  EXPECT_NEAR(u.farthest, 2.2, 0.1);
+  TriangleMesh kept = spiked;
+  EXPECT_FALSE(untangle(kept, 0).is_simple);
+  EXPECT_TRUE(kept.vertex == spiked.vertex);
 }
 
 TEST(MeshCompare, KnowsTheDistanceOfConcentricAndShiftedSpheres) {
