@@ -128,9 +128,12 @@ Meter make_meter(ResultsHeader const& header, Frame const& frame, int points, in
 
 OverlapReport summarise(std::vector<OverlapAt> const& pairs, std::size_t bodies) {
   OverlapReport report;
+  report.of_body.assign(bodies, 0);
   std::vector<double> depth;
   for (OverlapAt const& p : pairs) {
     if (!(p.depth > 0)) continue;
+    for (int const body : {p.a, p.b})
+      if (body >= 0) report.of_body[body] = std::max(report.of_body[body], p.depth);
     depth.push_back(p.depth);
     report.wall_contacts += p.b < 0;
     OverlapAt& deepest = p.b < 0 ? report.grain_wall : report.grain_grain;

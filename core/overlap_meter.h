@@ -3,6 +3,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <vector>
+
 #include "core/results.h"
 
 namespace scree {
@@ -21,6 +23,7 @@ struct OverlapReport {
   int contacts = 0;                   // pairs with some point inside, walls included
   int wall_contacts = 0;              // those with walls
   double coordination = 0;            // contacts a grain has on average, walls included
+  std::vector<double> of_body;        // each body's deepest contact, with grains or walls [d] (n_bodies)
 };
 
 // Every point of each grain's dense surface (at least `points_per_grain`, the same for all grains of a shape) is tested

@@ -87,7 +87,7 @@ class Painter {
     sun_ = normalized(Vec3{std::cos(azimuth), std::sin(azimuth), 1.35});
     cut_ = options.cut;
     colour_limit_ = options.colour_limit;
-    colour_ = body_colours(header, frame, options.colour, colour_limit_);
+    colour_ = body_colours(header, frame, options.colour, colour_limit_, options.threads);
   }
   Camera const& camera() const { return camera_; }
   double colour_limit() const { return colour_limit_; }

@@ -111,11 +111,13 @@ void add_render(CLI::App& app, RenderArguments& a, std::function<int()>& chosen)
                 "A sequence with one camera, FIRST:LAST or FIRST:LAST:STEP; negative counts from the end. Pictures are "
                 "named PICTURE-0000.png ...")
       ->excludes("--frame");
-  c->add_option("--colour,--color", a.colour, "Of the grains: by kind, [[grains]] entry, replica, speed or spin")
-      ->check(CLI::IsMember({"kind", "entry", "replica", "speed", "spin"}))
+  c->add_option("--colour,--color", a.colour,
+                "Of the grains: by kind, [[grains]] entry, replica, speed, spin or deepest overlap")
+      ->check(CLI::IsMember({"kind", "entry", "replica", "speed", "spin", "overlap"}))
       ->capture_default_str();
   c->add_option("--colour-limit,--color-limit", a.colour_limit,
-                "Speed [m/s] or spin [rad/s] at the bright end of the scale (default: the largest in the first frame)")
+                "Speed [m/s], spin [rad/s] or overlap [d] at the bright end of the scale (default: the largest in the "
+                "first frame)")
       ->check(CLI::PositiveNumber);
   c->add_option("--cut", a.cut, "Plane X,Y,Z,NX,NY,NZ [m]: grains are cut open, the side the normal points to is gone")
       ->delimiter(',')

@@ -83,9 +83,9 @@ void say(std::filesystem::path const& picture, Frame const& frame, int bodies, R
   fmt::print("picture   {}: t = {:.4g} s, {:.0f} % of {} grains visible, floor in {:.0f} % of the pixels{}\n",
              picture.string(), frame.time, 100 * visible_share(rendering, bodies), bodies,
              100.0 * static_cast<double>(floor) / static_cast<double>(rendering.id.size()),
-             is_scale(options.colour) ? fmt::format(", scale 0 ... {:.4g} {}", rendering.colour_limit,
-                                                    options.colour == ColourBy::speed ? "m/s" : "rad/s")
-                                      : "");
+             is_scale(options.colour)
+                 ? fmt::format(", scale 0 ... {:.4g} {}", rendering.colour_limit, unit_of(options.colour))
+                 : "");
 }
 
 }  // namespace

@@ -281,6 +281,24 @@ TEST(Render, SpeedsAreColoursOfAScale) {
   EXPECT_THROW(colour_by("taste"), std::invalid_argument);
 }
 
+// Two of three spheres are 0.02 d in each other: the scale ends there, the third is at its dark end.
+TEST(Render, OverlapsAreColoursOfAScale) {
+  Picture p(make_sphere());
+  p.add({-1, 0, 0.6});
+  p.add({-0.02, 0, 0.6});
+  p.add({1.2, 0, 0.6});
+  p.options.colour = ColourBy::overlap;
+  double limit = 0;
+  std::vector<Vec3> const colour = body_colours(p.header, p.frame, p.options.colour, limit, 1);
+  // Points stand at most 0.05 apart, so the meter misses s^2 / (4 R) = 0.0013 at most.
+  EXPECT_GT(limit, 0.0187);
+  EXPECT_LE(limit, 0.02 + 1e-12);
+  EXPECT_GT(colour[0].x, 10 * colour[2].x);
+  EXPECT_NEAR(colour[0].x, colour[1].x, 0.1);
+  EXPECT_EQ(p.draw().colour_limit, limit);
+  EXPECT_EQ(unit_of(ColourBy::overlap), std::string("d"));
+}
+
 // A sphere cut through its middle shows a disc of its own radius, flat and where the plane is.
 TEST(Render, CutShowsTheInside) {
   Picture p(make_sphere());
