@@ -34,7 +34,7 @@ std::vector<EffectRow> measure_effects(CostOptions const& options, int nodes, Fr
   std::vector<HeapMeter> heap;
   std::vector<EffectRow> rows;
   for (CostEffect const& effect : effects) {
-    Case c = cost_case(options, cost_subjects(options.few).back(), nodes);
+    Case c = cost_case(options, cost_subjects(options).back(), nodes);
     c.contact[0].friction.reset();
     c.contact[0].damping_ratio.reset();
     effect.add(c);

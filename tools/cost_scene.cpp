@@ -13,19 +13,21 @@ namespace scree {
 
 char const cost_truth[] = "ellipsoid:1.5:1.25:1";
 
-std::vector<CostSubject> cost_subjects(bool few) {
-  CostSubject const formula{"formula", cost_truth, Evaluator::analytic, 0},
-      net{"net 6x64", "grains:ellipsoid/2", Evaluator::net, 0};
+std::vector<CostSubject> cost_subjects(CostOptions const& options) {
   auto const grid = [](int cells) {
-    return CostSubject{"grid " + std::to_string(cells), cost_truth, Evaluator::grid, cells};
+    return CostSubject{"grid " + std::to_string(cells), cost_truth, Evaluator::grid, cells, {}};
   };
-  if (few) return {formula, grid(22), net};
-  return {formula, {"mesh 16", cost_truth, Evaluator::mesh, 16}, grid(22), grid(43), grid(86), net};
+  std::vector<CostSubject> all = {{"formula", cost_truth, Evaluator::analytic, 0, {}}, grid(22)};
+  if (!options.few) all.insert(all.end(), {grid(43), grid(86), {"mesh 16", cost_truth, Evaluator::mesh, 16, {}}});
+  for (std::filesystem::path const& file : options.nets)
+    all.push_back({"net " + file.stem().string(), "grains:*", Evaluator::net, 0, file});
+  all.push_back({"net 6x64", "grains:ellipsoid/2", Evaluator::net, 0, options.library});
+  return all;
 }
 
 Case cost_case(CostOptions const& options, CostSubject const& subject, int nodes) {
   std::vector<LibraryCase> library;
-  if (subject.evaluator == Evaluator::net) library = {{"grains", options.library}};
+  if (!subject.library.empty()) library = {{"grains", subject.library}};
   Case c = heap_case(library, {subject.shape}, options.grains, nodes, options.fall);
   GrainsCase& g = c.grains[0];
   g.evaluator = subject.evaluator;

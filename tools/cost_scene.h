@@ -15,11 +15,13 @@ struct CostSubject {
   std::string name;   // "grid 43"
   std::string shape;  // as a case file names it
   Evaluator evaluator = Evaluator::analytic;
-  int cells = 0;  // of a grid or a mesh, across the bounding diameter
+  int cells = 0;                  // of a grid or a mesh, across the bounding diameter
+  std::filesystem::path library;  // that the shape calls "grains"; empty: none
 };
 
 struct CostOptions {
   std::filesystem::path library;                   // with ellipsoid/2
+  std::vector<std::filesystem::path> nets;         // more networks of the body: model files of one shape each
   std::vector<int> nodes{250, 1000, 4000, 16000};  // a grain, ascending
   int reference_nodes = 64000;                     // what forces are compared with
   std::vector<double> steps{4, 2, 1, 0.5, 0.125};  // of collisions, in automatic ones; the last is the reference
@@ -27,7 +29,7 @@ struct CostOptions {
   bool few = false;                                // evaluators, see cost_subjects
   int grains = 60;                                 // of the heap, even: two and two of them are the pairs
   double fall = 1.2;                               // the time the heap may take to come to rest [s]
-  int warm_up = 50, round_steps = 200, rounds = 7;
+  int warm_up = 50, round_steps = 100, rounds = 5;
   double overlap = 0.01;  // of the pairs [d]
   double speed = 1;       // at which they collide, and largest component in the heap [m/s]
 };
@@ -35,8 +37,8 @@ struct CostOptions {
 // The body whose exact distance is known: the triaxial ellipsoid that ellipsoid/2 of the shipped library was learned
 // from (shapes/mesh/procedural_grains.cpp).
 extern char const cost_truth[];
-// The first is the formula itself. `few`: those that are quickly made.
-std::vector<CostSubject> cost_subjects(bool few);
+// The first is the formula itself, the last the shipped network.
+std::vector<CostSubject> cost_subjects(CostOptions const& options);
 
 // The heap with the grains of one subject.
 Case cost_case(CostOptions const& options, CostSubject const& subject, int nodes);

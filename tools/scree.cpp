@@ -203,6 +203,8 @@ void add_cost(CLI::App& app, CostArguments& a, std::function<int()>& chosen) {
   c->add_option("-o,--output", a.output, "Folder for tables and the picture; its heap.h5 is used again")
       ->capture_default_str();
   c->add_option("--library", a.library, "The shipped grains.h5 (default: looked for)");
+  c->add_option("--net", a.nets, "More networks to compare, each a file of scree-train fit ellipsoid:1.5:1.25:1")
+      ->check(CLI::ExistingFile);
   c->add_option("--nodes", a.nodes, "Node counts a grain (default: 250,1000,4000,16000)")
       ->delimiter(',')
       ->check(CLI::Range(100, 256000));

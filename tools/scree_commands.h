@@ -104,10 +104,11 @@ struct ValidateArguments {
 
 struct CostArguments {
   std::filesystem::path output = "cost.out";
-  std::filesystem::path library, share;  // grains.h5; empty: looked for; where installed libraries lie
-  std::vector<int> nodes;                // a grain; empty: 250 to 16,000
-  bool large = false;                    // 64,000 nodes, too, compared with 256,000
-  bool quick = false;                    // seconds, for figures that mean nothing
+  std::filesystem::path library, share;     // grains.h5; empty: looked for; where installed libraries lie
+  std::vector<std::filesystem::path> nets;  // more networks of the same body
+  std::vector<int> nodes;                   // a grain; empty: 250 to 16,000
+  bool large = false;                       // 64,000 nodes, too, compared with 256,000
+  bool quick = false;                       // seconds, for figures that mean nothing
 };
 
 int run_command(RunArguments const& arguments);

@@ -41,6 +41,7 @@ fs::path find_library(CostArguments const& a) {
 CostOptions options_of(CostArguments const& a) {
   CostOptions o;
   o.library = find_library(a);
+  for (fs::path const& file : a.nets) o.nets.push_back(fs::absolute(file));
   if (a.large) o.nodes.push_back(64000), o.reference_nodes = 256000;
   if (a.quick) {
     o.nodes = {250};
@@ -51,6 +52,12 @@ CostOptions options_of(CostArguments const& a) {
   }
   if (!a.nodes.empty()) o.nodes = a.nodes;
   std::sort(o.nodes.begin(), o.nodes.end());
+  o.nodes.erase(std::unique(o.nodes.begin(), o.nodes.end()), o.nodes.end());
+  std::vector<std::string> names;
+  for (CostSubject const& subject : cost_subjects(o)) names.push_back(subject.name);
+  std::sort(names.begin(), names.end());
+  if (auto const twice = std::adjacent_find(names.begin(), names.end()); twice != names.end())
+    throw InputError({*twice + ": two of this name; --net takes the names of its files"});
   return o;
 }
 
@@ -62,7 +69,7 @@ void progress(std::string const& what) {
 // The heap at rest that all subjects start from: of an earlier run into the same folder, or settled here.
 Frame heap_at_rest(CostOptions const& o, fs::path const& folder) {
   fs::path const file = folder / "heap.h5";
-  Case const c = cost_case(o, cost_subjects(o.few).front(), 1000);
+  Case const c = cost_case(o, cost_subjects(o).front(), 1000);
   if (fs::exists(file)) {
     ResultsReader const reader(file);
     if (reader.header().case_text == to_toml(c)) return reader.frame(-1);
@@ -90,6 +97,8 @@ Offer make_offer(CostOptions const& o, CostSubject const& subject, int nodes, Fr
   row.subject = subject.name;
   row.nodes = nodes;
   auto simulation = std::make_unique<Simulation>(cost_case(o, subject, nodes), SimulationOptions{}, frame);
+  if (simulation->impl().scene.library.shape.size() != 1)
+    throw InputError({subject.library.string() + ": more than one shape; give a file with a network of " + cost_truth});
   return {row, HeapMeter(std::move(simulation), o), {}};
 }
 
@@ -113,7 +122,7 @@ std::vector<QueryRow> measure_times(CostOptions const& o, std::vector<Offer>& of
 void compare_forces(CostOptions const& o, Frame const& frame, std::vector<PairPose> const& pairs,
                     std::vector<Offer>& offers) {
   std::vector<Vec3> truth;
-  for (CostSubject const& subject : cost_subjects(o.few)) {
+  for (CostSubject const& subject : cost_subjects(o)) {
     progress(fmt::format("reference: {}, {} nodes", subject.name, o.reference_nodes));
     Simulation s(cost_case(o, subject, o.reference_nodes), {}, frame);
     std::vector<Vec3> const reference = measure_forces(s, pairs).force;
@@ -140,7 +149,7 @@ int cost_command(CostArguments const& a) {
   fs::create_directories(a.output);
   Frame const frame = heap_at_rest(o, a.output);
   std::vector<Offer> offers;
-  for (CostSubject const& subject : cost_subjects(o.few))
+  for (CostSubject const& subject : cost_subjects(o))
     for (int nodes : o.nodes) offers.push_back(make_offer(o, subject, nodes, frame));
   std::vector<QueryRow> const queries = measure_times(o, offers);
   // From here on the scenes have neither weight nor friction.

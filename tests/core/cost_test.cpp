@@ -18,7 +18,7 @@ CostOptions small() {
 }
 
 Simulation simulation_of(std::string const& shape, int nodes, SimulationOptions const& options = {}) {
-  return Simulation(cost_case(small(), {"test", shape, Evaluator::analytic, 0}, nodes), options);
+  return Simulation(cost_case(small(), {"test", shape, Evaluator::analytic, 0, {}}, nodes), options);
 }
 
 TEST(Cost, OffersThatAnotherBeatsAreNotOnTheFront) {

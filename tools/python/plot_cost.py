@@ -10,8 +10,12 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
-COLOUR = {"formula": "#000000", "mesh": "#8c564b", "grid": "#1f77b4", "net": "#c1272d"}
+COLOUR = {"formula": "#000000", "mesh": "#8c564b", "grid": "#1f77b4"}
+NETS = ["#c1272d", "#ff7f0e", "#9467bd", "#2ca02c"]  # the shipped one, others
 MARKER = {"22": "v", "43": "s", "86": "^"}
+
+
+NET_COLOUR = {}
 
 
 def read(folder, name):
@@ -21,7 +25,9 @@ def read(folder, name):
 
 def style(evaluator):
     kind, _, size = evaluator.partition(" ")
-    return dict(color=COLOUR.get(kind, "#7f7f7f"), marker=MARKER.get(size, "o"), markersize=5)
+    if kind == "net":
+        NET_COLOUR.setdefault(evaluator, NETS[len(NET_COLOUR) % len(NETS)])
+    return dict(color=NET_COLOUR.get(evaluator) or COLOUR[kind], marker=MARKER.get(size, "o"), markersize=5)
 
 
 def front(points):
@@ -42,7 +48,7 @@ def price(axes, rows):
         axes.loglog(time, error, label=name, linewidth=0.8, **style(name))
         points += zip(time, error)
     kept = front(points)
-    axes.loglog(*zip(*kept), color="#2ca02c", linewidth=5, alpha=0.3, zorder=0, label="nothing beats these")
+    axes.loglog(*zip(*kept), color="#7fbf3f", linewidth=6, alpha=0.4, zorder=0, label="nothing beats these")
     for row in rows:
         if (float(row["rest_us"]), float(row["force_error"])) in kept or row["evaluator"] == rows[-1]["evaluator"]:
             axes.annotate(row["nodes"], (float(row["rest_us"]), float(row["force_error"])), (4, 4),
@@ -83,6 +89,7 @@ def steps(axes, rows):
 
 def main():
     folder = sys.argv[1]
+    style(read(folder, "cost.csv")[-1]["evaluator"])  # the shipped network comes last and has the first colour
     figure, axes = plt.subplots(1, 3, figsize=(15, 5), width_ratios=[1.5, 1, 1], layout="constrained")
     price(axes[0], read(folder, "cost.csv"))
     single(axes[1], read(folder, "queries.csv"))
