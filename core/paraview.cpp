@@ -20,7 +20,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Each body's number for the part of its shape's name before the '/'.
+// value[body] repeated count[body] times.
+template <class T>
+std::vector<T> repeated(std::vector<T> const& value, std::vector<int> const& count) {
+  std::vector<T> out;
+  for (std::size_t i = 0; i < value.size(); ++i) out.insert(out.end(), static_cast<std::size_t>(count[i]), value[i]);
+  return out;
+}
+
+}  // namespace
+
 std::vector<std::int32_t> kind_of_bodies(ResultsHeader const& h) {
   std::map<std::string, int> number;
   std::vector<std::int32_t> of_shape;
@@ -31,16 +40,6 @@ std::vector<std::int32_t> kind_of_bodies(ResultsHeader const& h) {
   for (int const shape : h.shape) kind.push_back(of_shape[static_cast<std::size_t>(shape)]);
   return kind;
 }
-
-// value[body] repeated count[body] times.
-template <class T>
-std::vector<T> repeated(std::vector<T> const& value, std::vector<int> const& count) {
-  std::vector<T> out;
-  for (std::size_t i = 0; i < value.size(); ++i) out.insert(out.end(), static_cast<std::size_t>(count[i]), value[i]);
-  return out;
-}
-
-}  // namespace
 
 struct ParaviewWriter::Data {
   struct Entry {

@@ -2,12 +2,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <vector>
 
 #include "core/results.h"
 
 namespace scree {
+
+// kind of each body: numbers of the parts of the shapes' names before the first '/' or ':' in order of appearance:
+// ballast/0 and ballast/1 share one.
+std::vector<std::int32_t> kind_of_bodies(ResultsHeader const& header);
 
 struct ParaviewOptions {
   int triangles = 600;          // largest number of triangles a grain
@@ -20,8 +26,6 @@ struct ParaviewOptions {
 // rewritten with every frame: a killed run opens. surfaces: cells carry body, shape, kind, material, group, replica,
 // velocity [m/s]; coordinates are float [m]. grains: points carry these and spin [rad/s], orientation (w, x, y, z),
 // diameter [m]. walls: cells carry the number of the wall among the header's planes and, after them, its wall bodies.
-// kind numbers the parts of the shapes' names before the first '/' or ':' in order of appearance: ballast/0 and
-// ballast/1 share one.
 class ParaviewWriter {
  public:
   // Makes the folder and meshes every shape's zero set. Throws std::system_error naming what cannot be written.

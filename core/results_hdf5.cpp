@@ -44,24 +44,24 @@ hdf5::Handle checked_text_type(hid_t dataset, char const* name) {
   return type;
 }
 
-// The data space of `dataset` with one row selected.
-hdf5::Handle row_selection(hid_t dataset, char const* name, Extent const& inner, hsize_t row) {
+Extent rows_extent(Extent const& inner, hsize_t count) {
+  Extent extent{count};
+  extent.insert(extent.end(), inner.begin(), inner.end());
+  return extent;
+}
+
+// The data space of `dataset` with `count` rows selected.
+hdf5::Handle row_selection(hid_t dataset, char const* name, Extent const& inner, hsize_t row, hsize_t count) {
   hdf5::Handle space(H5Dget_space(dataset), H5Sclose, "cannot read the size of " + dataset_named(name));
-  Extent start(inner.size() + 1, 0), count{1};
+  Extent start(inner.size() + 1, 0);
   start[0] = row;
-  count.insert(count.end(), inner.begin(), inner.end());
-  require(H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr) >= 0,
-          "cannot select a row of " + dataset_named(name));
+  require(
+      H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, rows_extent(inner, count).data(), nullptr) >= 0,
+      "cannot select rows of " + dataset_named(name));
   return space;
 }
 
 bool is_empty(Extent const& inner) { return std::find(inner.begin(), inner.end(), 0u) != inner.end(); }
-
-Extent row_extent(Extent const& inner) {
-  Extent extent{1};
-  extent.insert(extent.end(), inner.begin(), inner.end());
-  return extent;
-}
 
 }  // namespace
 
@@ -133,13 +133,11 @@ std::vector<std::string> read_texts(hid_t at, char const* name) {
   return texts;
 }
 
-hdf5::Handle create_series(hid_t at, char const* name, Extent const& inner, hid_t type) {
-  Extent extent = row_extent(inner), largest = extent, chunk = extent;
-  extent[0] = 0;
-  largest[0] = H5S_UNLIMITED;
-  for (hsize_t& n : chunk) n = std::max<hsize_t>(n, 1);
+hdf5::Handle create_series(hid_t at, char const* name, Extent const& inner, hid_t type, hsize_t chunk_rows) {
+  Extent const extent = rows_extent(inner, 0), largest = rows_extent(inner, H5S_UNLIMITED);
   // A row of one number a frame would cost a chunk of its own.
-  if (inner.empty()) chunk[0] = 256;
+  Extent chunk = rows_extent(inner, chunk_rows > 0 ? chunk_rows : inner.empty() ? 256 : 1);
+  for (hsize_t& n : chunk) n = std::max<hsize_t>(n, 1);
   hdf5::Handle const space = make_space(extent, largest);
   hdf5::Handle const layout(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "cannot set up " + dataset_named(name));
   require(H5Pset_chunk(layout, static_cast<int>(chunk.size()), chunk.data()) >= 0,
@@ -148,20 +146,19 @@ hdf5::Handle create_series(hid_t at, char const* name, Extent const& inner, hid_
           "cannot create " + dataset_named(name)};
 }
 
-void append_row(hid_t dataset, char const* name, Extent const& inner, hsize_t row, hid_t type, void const* data) {
-  Extent extent = row_extent(inner);
-  extent[0] = row + 1;
-  require(H5Dset_extent(dataset, extent.data()) >= 0, "cannot grow " + dataset_named(name));
-  if (is_empty(inner)) return;
-  hdf5::Handle const selection = row_selection(dataset, name, inner, row);
-  hdf5::Handle const memory = make_space(row_extent(inner));
+void append_rows(hid_t dataset, char const* name, Extent const& inner, hsize_t row, hsize_t count, hid_t type,
+                 void const* data) {
+  require(H5Dset_extent(dataset, rows_extent(inner, row + count).data()) >= 0, "cannot grow " + dataset_named(name));
+  if (count == 0 || is_empty(inner)) return;
+  hdf5::Handle const selection = row_selection(dataset, name, inner, row, count);
+  hdf5::Handle const memory = make_space(rows_extent(inner, count));
   require(H5Dwrite(dataset, type, memory, selection, H5P_DEFAULT, data) >= 0, "cannot write " + dataset_named(name));
 }
 
 void read_row(hid_t dataset, char const* name, Extent const& inner, hsize_t row, hid_t type, void* data) {
   if (is_empty(inner)) return;
-  hdf5::Handle const selection = row_selection(dataset, name, inner, row);
-  hdf5::Handle const memory = make_space(row_extent(inner));
+  hdf5::Handle const selection = row_selection(dataset, name, inner, row, 1);
+  hdf5::Handle const memory = make_space(rows_extent(inner, 1));
   require(H5Dread(dataset, type, memory, selection, H5P_DEFAULT, data) >= 0, "cannot read " + dataset_named(name));
 }
 

@@ -75,18 +75,24 @@ std::string read_text(hid_t at, char const* name);
 void write_texts(hid_t at, char const* name, std::vector<std::string> const& texts);
 std::vector<std::string> read_texts(hid_t at, char const* name);
 
-// A dataset that grows by one row of `inner` numbers at a time, one chunk a row.
-hdf5::Handle create_series(hid_t at, char const* name, Extent const& inner, hid_t type);
-void append_row(hid_t dataset, char const* name, Extent const& inner, hsize_t row, hid_t type, void const* data);
+// A dataset that grows by rows of `inner` numbers, `chunk` rows a chunk (0: one, and 256 of single numbers).
+hdf5::Handle create_series(hid_t at, char const* name, Extent const& inner, hid_t type, hsize_t chunk);
+// Rows row ... row + count - 1 behind the others.
+void append_rows(hid_t dataset, char const* name, Extent const& inner, hsize_t row, hsize_t count, hid_t type,
+                 void const* data);
 void read_row(hid_t dataset, char const* name, Extent const& inner, hsize_t row, hid_t type, void* data);
 
 template <class T>
 class Series {
  public:
   Series() = default;
-  Series(hid_t at, char const* name, Extent inner)
-      : name_(name), inner_(std::move(inner)), dataset_(create_series(at, name, inner_, Type<T>::file())) {}
-  void append(T const* row) { append_row(dataset_, name_.c_str(), inner_, rows_++, Type<T>::memory(), row); }
+  Series(hid_t at, char const* name, Extent inner, hsize_t chunk = 0)
+      : name_(name), inner_(std::move(inner)), dataset_(create_series(at, name, inner_, Type<T>::file(), chunk)) {}
+  void append(T const* row, hsize_t count = 1) {
+    append_rows(dataset_, name_.c_str(), inner_, rows_, count, Type<T>::memory(), row);
+    rows_ += count;
+  }
+  hsize_t rows() const { return rows_; }
 
  private:
   std::string name_;

@@ -147,12 +147,16 @@ void add_report(CLI::App& app, ReportArguments& a, std::function<int()>& chosen)
 }
 
 void add_export(CLI::App& app, ExportArguments& a, std::function<int()>& chosen) {
-  CLI::App* const c =
-      app.add_subcommand("export", "Write a results file for ParaView (PVD + VTP), or a frame's grains as meshes");
+  CLI::App* const c = app.add_subcommand(
+      "export", "Write a results file for ParaView (PVD + VTP or VTKHDF), or a frame's grains as meshes");
   c->add_option("results", a.results, "results.h5")->required();
-  c->add_option("-o,--output", a.folder, "Folder to write (default: paraview beside the results); with --stl a file");
+  c->add_option("-o,--output", a.folder,
+                "Folder to write (default: paraview beside the results); with --vtkhdf and --stl a file");
+  CLI::Option* const vtkhdf = c->add_flag(
+      "--vtkhdf", a.vtkhdf, "Write one VTKHDF time series, a point a grain, for ParaView 5.12, VTK 9.3 and later");
   CLI::Option* const stl =
-      c->add_flag("--stl", a.surfaces, "Write the grains of one frame as a mesh in world coordinates");
+      c->add_flag("--stl", a.surfaces, "Write the grains of one frame as a mesh in world coordinates")
+          ->excludes(vtkhdf);
   c->add_option("--format", a.format, "Of the meshes")
       ->needs(stl)
       ->check(CLI::IsMember({"stl", "ply", "obj"}))

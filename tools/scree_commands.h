@@ -70,6 +70,7 @@ struct InfoArguments {
 struct ExportArguments {
   std::filesystem::path results, folder;  // folder empty: "paraview" beside the results
   bool recover = false;
+  bool vtkhdf = false;         // one file, `folder`, instead of a folder
   bool surfaces = false;       // mesh files instead of ParaView's; `folder` is then a file, or a folder with per_grain
   bool per_grain = false;      // one file a grain
   bool walls = false;          // the walls, too

@@ -11,6 +11,7 @@
 #include "core/paraview.h"
 #include "core/results.h"
 #include "core/simulation.h"
+#include "core/vtkhdf.h"
 #include "shapes/file_container.h"
 #include "shapes/model_file.h"
 #include "tools/scree_commands.h"
@@ -134,6 +135,22 @@ bool is_model(fs::path const& file) {
   }
 }
 
+int export_vtkhdf(ExportArguments const& arguments, ResultsReader const& reader) {
+  fs::path file = arguments.folder;
+  if (file.empty()) {
+    file = arguments.results.parent_path() / "paraview" / "grains.vtkhdf";
+    fs::create_directories(file.parent_path());
+  }
+  // It replaces what is there, like the folder's files do: not the results by a slip of the pen.
+  if (file.extension() != ".vtkhdf") throw InputError({file.string() + ": --output must end in .vtkhdf"});
+  if (reader.frames() == 0) throw InputError({arguments.results.string() + ": has no frame to export"});
+  VtkhdfWriter writer(file, reader.header());
+  for (int k = 0; k < reader.frames(); ++k) writer.write_frame(reader.frame(k));
+  writer.finish();
+  fmt::print("ParaView  {}\n", file.string());
+  return exit_ok;
+}
+
 }  // namespace
 
 int plan_command(CaseArguments const& arguments) {
@@ -191,6 +208,7 @@ int info_command(InfoArguments const& arguments) {
 
 int export_command(ExportArguments const& arguments) {
   ResultsReader const reader(arguments.results, arguments.recover);
+  if (arguments.vtkhdf) return export_vtkhdf(arguments, reader);
   fs::path const folder = arguments.folder.empty() ? arguments.results.parent_path() / "paraview" : arguments.folder;
   ParaviewOptions options;
   options.frames_expected = std::max(1, reader.frames());

@@ -7,6 +7,7 @@
 
 #include "core/expected_figures.h"
 #include "core/results.h"
+#include "core/results_hdf5.h"
 #include "shapes/mesh_files.h"
 #include "tests/core/program_fixture.h"
 #include "tests/support/pebble_decoder.h"
@@ -121,6 +122,30 @@ TEST_F(Program, ExportsTheGrainsOfAFrameAsMeshes) {
   EXPECT_EQ(scree("export absent.h5 --stl").code, 2);
   EXPECT_EQ(scree("export small.out/results.h5 --stl -o nowhere/x.stl").code, 4);
   EXPECT_FALSE(fs::exists(folder_ / "x.stl"));
+}
+
+TEST_F(Program, ExportsTheGrainsOfARunAsOneTimeSeries) {
+  write("small.toml", small_case);
+  ASSERT_EQ(scree("run small.toml").code, 0);
+  Outcome const outcome = scree("export small.out/results.h5 --vtkhdf");
+  ASSERT_EQ(outcome.code, 0) << outcome.text;
+  ResultsReader const results(folder_ / "small.out/results.h5");
+  hdf5::Handle const file = hdf5::open_file((folder_ / "small.out/paraview/grains.vtkhdf").string());
+  auto const time = results_hdf5::read_array<double>(file, "VTKHDF/Steps/Values");
+  auto const point = results_hdf5::read_array<double>(file, "VTKHDF/Points", {3});
+  ASSERT_EQ(static_cast<int>(time.size()), results.frames());
+  ASSERT_EQ(point.size(), 3 * time.size());  // one grain
+  for (std::size_t k = 0; k < time.size(); ++k) {
+    EXPECT_EQ(time[k], results.frame(static_cast<int>(k)).time);
+    EXPECT_EQ(point[3 * k + 2], results.frame(static_cast<int>(k)).position.at(0).z);
+  }
+  EXPECT_FALSE(fs::exists(folder_ / "small.out/paraview/scene.pvd"));
+  EXPECT_EQ(scree("export small.out/results.h5 --vtkhdf -o x.vtkhdf").code, 0);
+  EXPECT_EQ(scree("export small.out/results.h5 --vtkhdf -o x.vtkhdf").code, 0);  // replaced, as the folder's files are
+  EXPECT_EQ(scree("export small.out/results.h5 --vtkhdf -o small.out/results.h5").code, 2);
+  EXPECT_EQ(scree("info small.out/results.h5").code, 0);
+  EXPECT_EQ(scree("export small.out/results.h5 --vtkhdf --stl").code, 2);
+  EXPECT_EQ(scree("export small.out/results.h5 --vtkhdf -o nowhere/x.vtkhdf").code, 4);
 }
 
 TEST_F(Program, SampledGrainsRunAndTheirResultsStandAlone) {
