@@ -58,8 +58,9 @@ double face_of_nodes(Scene const& scene) {
 }
 
 // Bodies of these diameters, body k resting on k - 1, started at the heights where `overlap` carries what is above.
+// Damping ends when no body has more than `kinetic` [m g d].
 Column stand(Case c, std::string const& shape, Evaluator evaluator, int nodes, std::vector<double> const& diameter,
-             std::vector<double> const& half, std::vector<double> const& overlap) {
+             std::vector<double> const& half, std::vector<double> const& overlap, double kinetic = 1e-12) {
   int const n = static_cast<int>(diameter.size());
   c.gravity = Vec3{0, 0, -gravity};
   c.contact[0].kappa = kappa;
@@ -67,7 +68,7 @@ Column stand(Case c, std::string const& shape, Evaluator evaluator, int nodes, s
   c.contact[0].damping_ratio = 0.5;
   c.wall = {floor_at(0)};
   c.time.end = 20;
-  c.time.settle = SettleCase{5, 0, 1e-12, 0.4};
+  c.time.settle = SettleCase{5, 0, kinetic, 0.4};
   double z = 0;
   for (int k = 0; k < n; ++k) {
     z += half[k] - overlap[k];
@@ -186,10 +187,12 @@ TEST(Validation, Row11StackOfBlocks) {
 TEST(Validation, Row11StackOfEqualBlocks) {
   Entry book("validation", "11b", "a stack of equal blocks, flush", "closed form: delta = N / (kappa A)");
   std::vector<double> const d(full() ? 10 : 3, 0.1);
+  // Ten blocks bend so slowly that what is left of it would be taken for creep (1e-12 m g d is 1.4e-5 d/s).
+  double const kinetic = full() ? 1e-15 : 1e-12;
   for (int nodes : {1000, 4000}) {
     if (nodes == 4000 && !full()) continue;
     Column const column =
-        stand(rock_case(), "box:2:2:1", Evaluator::analytic, nodes, d, half_heights(d), block_overlaps(d));
+        stand(rock_case(), "box:2:2:1", Evaluator::analytic, nodes, d, half_heights(d), block_overlaps(d), kinetic);
     judge(book, std::to_string(nodes) + " nodes", column, block_overlaps(d), nodes == 1000 ? 0.02 : 0.01, full());
   }
 }
