@@ -105,7 +105,7 @@ TEST_F(CheckpointFile, HoldsEveryMember) {
   EXPECT_FALSE(fs::exists(file.string() + ".partial"));
 }
 
-// Issue 4: killed 50 times while it writes, the last good one always restores.
+// Killed 50 times while it writes, the last good one always restores.
 TEST_F(CheckpointFile, KilledWriterLeavesAGoodOne) {
   Case c = small_case();
   c.grains.pop_back();  // the egg's nodes take long to make
