@@ -114,23 +114,13 @@ struct ResultsWriter::Data {
   // HDF5's and the container's complaints with the file's name, as one type.
   template <class Work>
   void guarded(Work const& work) const {
-    hdf5::QuietErrors const quiet;
-    try {
-      work();
-    } catch (std::runtime_error const&) {
-      hdf5::rethrow_as_write_error(final_name.string());
-    }
+    hdf5::write_guarded(final_name.string(), work);
   }
 };
 
 ResultsWriter::ResultsWriter(fs::path const& file, ResultsHeader const& header) {
   check_header(header);
-  hdf5::QuietErrors const quiet;
-  try {
-    data_ = std::make_unique<Data>(file, header);
-  } catch (std::runtime_error const&) {
-    hdf5::rethrow_as_write_error(file.string());
-  }
+  hdf5::write_guarded(file.string(), [&] { data_ = std::make_unique<Data>(file, header); });
 }
 
 ResultsWriter::~ResultsWriter() = default;

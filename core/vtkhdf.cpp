@@ -87,12 +87,7 @@ struct VtkhdfWriter::Data {
   // HDF5's complaints with the file's name, as one type.
   template <class Work>
   void guarded(Work const& work) const {
-    hdf5::QuietErrors const quiet;
-    try {
-      work();
-    } catch (std::runtime_error const&) {
-      hdf5::rethrow_as_write_error(final_name.string());
-    }
+    hdf5::write_guarded(final_name.string(), work);
   }
 };
 
@@ -216,12 +211,7 @@ void VtkhdfWriter::Data::write_steps() {
 }
 
 VtkhdfWriter::VtkhdfWriter(fs::path const& file, ResultsHeader const& header) {
-  hdf5::QuietErrors const quiet;
-  try {
-    data_ = std::make_unique<Data>(file, header);
-  } catch (std::runtime_error const&) {
-    hdf5::rethrow_as_write_error(file.string());
-  }
+  hdf5::write_guarded(file.string(), [&] { data_ = std::make_unique<Data>(file, header); });
 }
 
 VtkhdfWriter::~VtkhdfWriter() = default;

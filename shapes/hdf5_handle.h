@@ -55,6 +55,17 @@ class Error : public std::runtime_error {
 // In a handler of whatever went wrong while `file` was written: throws std::system_error with its name and the cause.
 [[noreturn]] void rethrow_as_write_error(std::string const& file);
 
+// Does `work`, a part of writing `file`: without HDF5's prints, errors as rethrow_as_write_error has them.
+template <class Work>
+void write_guarded(std::string const& file, Work const& work) {
+  QuietErrors const quiet;
+  try {
+    work();
+  } catch (std::runtime_error const&) {
+    rethrow_as_write_error(file);
+  }
+}
+
 // A new file whose first 512 bytes belong to the container (file_container.h); an existing file that passed its check.
 Handle create_file(std::string const& file);
 Handle open_file(std::string const& file);
