@@ -7,11 +7,11 @@
 
 #include <filesystem>
 #include <fstream>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "core/case.h"
+#include "tests/support/changed_text.h"
 
 namespace scree::testing {
 
@@ -83,12 +83,5 @@ class CaseFile : public ::testing::Test {
 
   fs::path folder_;
 };
-
-// `text` with the first `from` replaced by `to`.
-inline std::string with(std::string text, std::string const& from, std::string const& to) {
-  std::size_t const at = text.find(from);
-  if (at == std::string::npos) throw std::logic_error("test text lacks: " + from);
-  return text.replace(at, from.size(), to);
-}
 
 }  // namespace scree::testing

@@ -8,12 +8,12 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "shapes/analytic_shapes.h"
 #include "shapes/model_file.h"
+#include "tests/support/changed_text.h"
 #include "tests/support/shell.h"
 
 namespace scree::testing {
@@ -50,12 +50,6 @@ material = "rock"
 [output]
 every = 0.001
 )";
-
-inline std::string with(std::string text, std::string const& from, std::string const& to) {
-  std::size_t const at = text.find(from);
-  if (at == std::string::npos) throw std::logic_error("test text lacks: " + from);
-  return text.replace(at, from.size(), to);
-}
 
 inline std::string read_file(fs::path const& file) {
   std::ifstream stream(file, std::ios::binary);
