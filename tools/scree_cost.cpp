@@ -3,13 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstdlib>
-#include <fstream>
-#include <system_error>
 
 #include "core/results.h"
 #include "kernels/base/build_info.h"
+#include "shapes/whole_file.h"
 #include "tools/cost_table.h"
 #include "tools/measured_on.h"
 #include "tools/plot_script.h"
@@ -19,14 +17,6 @@ namespace scree {
 namespace {
 
 namespace fs = std::filesystem;
-
-void write_text(fs::path const& file, std::string const& text) {
-  errno = 0;
-  std::ofstream stream(file, std::ios::binary);
-  stream << text << std::flush;
-  if (!stream)
-    throw std::system_error(errno ? errno : EIO, std::generic_category(), file.string() + ": cannot be written");
-}
 
 fs::path find_library(CostArguments const& a) {
   char const* const folder = std::getenv("SCREE_LIBRARY");
@@ -174,11 +164,11 @@ int cost_command(CostArguments const& a) {
   std::vector<CostRow> rows;
   for (Offer const& offer : offers) rows.push_back(offer.row);
   std::string const list = price_list(rows, queries) + "\n" + measured_on();
-  write_text(a.output / "cost.csv", cost_csv(rows));
-  write_text(a.output / "queries.csv", query_csv(queries));
-  write_text(a.output / "collisions.csv", collision_csv(collisions));
-  write_text(a.output / "effects.csv", effect_csv(effects));
-  write_text(a.output / "cost.md", list);
+  replace_whole_file(a.output / "cost.csv", cost_csv(rows));
+  replace_whole_file(a.output / "queries.csv", query_csv(queries));
+  replace_whole_file(a.output / "collisions.csv", collision_csv(collisions));
+  replace_whole_file(a.output / "effects.csv", effect_csv(effects));
+  replace_whole_file(a.output / "cost.md", list);
   fmt::print("\n{}\n{}: cost.md, cost.csv, queries.csv, collisions.csv, effects.csv\n", list, a.output.string());
   std::string const trouble = run_plot_script(plot_cost_text, {a.output.string()});
   if (trouble.empty())

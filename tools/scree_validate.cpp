@@ -4,17 +4,16 @@
 #include <sys/wait.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <fstream>
 #include <iterator>
 #include <map>
 #include <set>
-#include <system_error>
 #include <thread>
 
 #include "core/case.h"
+#include "shapes/whole_file.h"
 #include "tools/book_process.h"
 #include "tools/book_table.h"
 #include "tools/plot_script.h"
@@ -31,14 +30,6 @@ double since(Clock::time_point start) { return std::chrono::duration<double>(Clo
 std::string read_text(fs::path const& file) {
   std::ifstream stream(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(stream), {}};
-}
-
-void write_text(fs::path const& file, std::string const& text) {
-  errno = 0;
-  std::ofstream stream(file, std::ios::binary);
-  stream << text << std::flush;
-  if (!stream)
-    throw std::system_error(errno ? errno : EIO, std::generic_category(), file.string() + ": cannot be written");
 }
 
 std::vector<std::string> choose(std::vector<std::string> const& entries, std::vector<std::string> const& words) {
@@ -118,8 +109,10 @@ std::vector<Outcome> run_entries(fs::path const& book, std::vector<std::string> 
     running.erase(found);
     Outcome& out = outcome[r.entry] = collect(entries[r.entry], r.files, status, since(r.start));
     ++done;
-    fmt::print("[{}/{}] {} {:6.1f} s  {}{}\n", done, entries.size(), out.trouble.empty() ? "pass" : "FAIL", out.seconds,
-               entries[r.entry], out.trouble.empty() ? "" : ": " + out.trouble);
+    // An entry without figures is one that only its long variant has.
+    char const* const verdict = !out.trouble.empty() ? "FAIL" : out.rows.empty() ? "long" : "pass";
+    fmt::print("[{}/{}] {} {:6.1f} s  {}{}\n", done, entries.size(), verdict, out.seconds, entries[r.entry],
+               out.trouble.empty() ? "" : ": " + out.trouble);
     std::fflush(stdout);
   }
   return outcome;
@@ -153,9 +146,9 @@ int validate_command(ValidateArguments const& a) {
     said += out.said;
     bad_entries += !out.trouble.empty();
   }
-  write_text(a.output / "validation.csv", rows_text);
-  write_text(a.output / "curves.csv", curves);
-  write_text(a.output / "book.log", said);
+  replace_whole_file(a.output / "validation.csv", rows_text);
+  replace_whole_file(a.output / "curves.csv", curves);
+  replace_whole_file(a.output / "book.log", said);
   fmt::print("{}\n", book_table(rows));
   auto const bad_rows = std::count_if(rows.begin(), rows.end(), [](BookRow const& r) { return !r.passed; });
   for (std::size_t i = 0; i < entries.size(); ++i)
