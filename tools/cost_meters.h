@@ -1,4 +1,4 @@
-// cost_meters.h: the three sweeps of `scree cost`: single queries, pairs of grains, a heap at rest and flowing.
+// cost_meters.h: the sweeps of `scree cost`: single queries, pairs of grains, a heap at rest and flowing, effects.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -30,7 +30,7 @@ struct QueryRow {
   std::vector<double> phi_seconds, gradient_seconds;  // a round each
 };
 // Errors of body 0's phi; adds one round of time to the row.
-void measure_queries(Simulation const& simulation, QueryPoints const& band, QueryPoints const& surface, QueryRow& row);
+void measure_queries(Simulation& simulation, QueryPoints const& band, QueryPoints const& surface, QueryRow& row);
 
 // Forces of pairs at given poses.
 struct PairForces {

@@ -23,9 +23,9 @@ double rounding_of(Simulation::Impl const& s) {
   return whole > 0 ? difference / whole : 0;
 }
 
-double pair_energy(Simulation::Impl const& s, int pair) {
+double pair_energy(Simulation::Impl& s, int pair) {
   SceneView const scene = s.scene.view();
-  StateView const state = const_cast<State&>(s.state).view();
+  StateView const state = s.state.view();
   double energy = kinetic_energy(scene, state, 2 * pair) + kinetic_energy(scene, state, 2 * pair + 1);
   for (std::size_t k = 0; k < s.work.pair.size(); ++k)
     if (s.work.pair[k].a == 2 * pair || s.work.pair[k].b == 2 * pair) energy += s.work.result[k].energy_normal;

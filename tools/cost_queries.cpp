@@ -65,8 +65,8 @@ QueryPoints truth_points(int count, double spread) {
   return out;
 }
 
-void measure_queries(Simulation const& simulation, QueryPoints const& band, QueryPoints const& surface, QueryRow& row) {
-  Simulation::Impl const& s = const_cast<Simulation&>(simulation).impl();
+void measure_queries(Simulation& simulation, QueryPoints const& band, QueryPoints const& surface, QueryRow& row) {
+  Simulation::Impl const& s = simulation.impl();
   SceneView const scene = s.scene.view();
   Queue const one{};
   QueryBatch batch = batch_for(s, band.point);

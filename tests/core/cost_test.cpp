@@ -36,10 +36,12 @@ TEST(Cost, AFormulasOwnErrorIsZeroAndThatOfASphereIsItsDistance) {
   EXPECT_GT(*std::max_element(band.phi.begin(), band.phi.end()), 0.04);
   EXPECT_LT(*std::min_element(band.phi.begin(), band.phi.end()), -0.04);
   QueryRow own, sphere;
-  measure_queries(simulation_of(cost_truth, 100), band, surface, own);
+  Simulation truth = simulation_of(cost_truth, 100);
+  measure_queries(truth, band, surface, own);
   EXPECT_EQ(own.phi_largest, 0);
   EXPECT_EQ(own.normal_p95, 0);
-  measure_queries(simulation_of("sphere", 100), band, surface, sphere);
+  Simulation ball = simulation_of("sphere", 100);
+  measure_queries(ball, band, surface, sphere);
   double mean = 0, largest = 0, turned = 0;
   for (std::size_t i = 0; i < band.phi.size(); ++i) {
     double const error = std::abs(0.5 - norm(band.point[i]) - band.phi[i]);
