@@ -21,7 +21,7 @@ for name in "$@"; do
   [ -f "$here/$name.dict" ] && dictionary="-dict=$here/$name.dict"
   log="$build/found/$name.log"
   # shellcheck disable=SC2086 # no word where there is no dictionary
-  if OMP_NUM_THREADS=1 "$build/fuzz/fuzz_$name" -max_total_time="$seconds" -timeout=30 -rss_limit_mb=2048 -malloc_limit_mb=1024 \
+  if OMP_NUM_THREADS=1 "$build/fuzz/fuzz_$name" -max_total_time="$seconds" -timeout=10 -rss_limit_mb=2048 -malloc_limit_mb=1024 \
     -artifact_prefix="$build/found/$name-" $dictionary "$build/corpus/$name" "$here/corpus/$name" >"$log" 2>&1; then
     echo "fuzz_$name: $(tail -n 1 "$log")"
   else
