@@ -40,7 +40,7 @@ VARIANTS = [
     ("cases/TUTORIAL.md", "scree run bed.toml --output slippery --set contact.0.friction=0.1 --quiet",
      "... --set time.end=0.1", "its first run is run whole, this one is like it"),
     ("cases/drum/README.md", "scree run cases/drum/ballast.toml --output drum.out",
-     "... --set time.end=0.01 --set grains.ballast.nodes=100 --threads 1", "half an hour"),
+     "... --set time.end=0.01 --set grains.ballast.nodes=100 --threads 1", MINUTES),
     ("cases/drum/README.md", "scree render drum.out/results.h5 -o drum.png --azimuth -78 --elevation 14",
      "... --size 160x120 --threads 1", "a small picture"),
     ("cases/funnel/README.md", "scree run cases/funnel/ballast.toml --output funnel.out",
