@@ -39,6 +39,7 @@ struct DueNodes {
   Span<int> entry;  // of the list; empty: count only
   Span<Vec3> point;
   Span<int> partner;
+  Span<char> graded;
 
   SCREE_HD void operator()(int s) const {
     ShapeRecord const& shape = scene.shape_record(side[s].carrier);
@@ -51,6 +52,7 @@ struct DueNodes {
         Vec3 const p = node_position(scene.nodes, shape, node[i]);
         point[at] = point_in_partner(scene, state, kinematics, side[s], p);
         partner[at] = side[s].partner;
+        graded[at] = due[i] == was_inside;
       }
       ++n;
     }
@@ -58,7 +60,7 @@ struct DueNodes {
   }
 };
 
-// Counts the nodes inside and puts the others off until they can be.
+// Counts the nodes inside, and those of them without a gradient yet, and puts the others off until they can be.
 struct NextDue {
   SceneView scene;
   Span<const Side> side;
@@ -66,18 +68,23 @@ struct NextDue {
   bool brute_force;
   Span<const int> due_first, entry;
   Span<const double> phi;
+  Span<const char> graded;
   Span<double> due;
-  Span<int> count;
+  Span<int> count, again_count;
 
   SCREE_HD void operator()(int s) const {
-    int n = 0;
+    int n = 0, again = 0;
     double const outside = -adhesive_reach(scene, side[s]) / partner_unit(scene, side[s]);
     for (int i = due_first[s]; i < due_first[s + 1]; ++i) {
-      n += phi[i] > outside;
+      bool const inside = phi[i] > outside;
+      n += inside;
+      again += inside && !graded[i];
       double const way = way_to_contact(scene, side[s], phi[i]);
-      due[entry[i]] = brute_force || way <= 0 ? 0 : travelled[s] + way;
+      double const next = way <= 0 ? 0 : travelled[s] + way;
+      due[entry[i]] = brute_force ? 0 : inside ? was_inside : next;
     }
     count[s] = n;
+    again_count[s] = again;
   }
 };
 
@@ -86,30 +93,48 @@ struct FillActive {
   Span<const Side> side;
   Span<const int> due_first, entry, listed_node;
   Span<const double> phi;
+  Span<const Vec3> gradient;
+  Span<const char> graded;
   Span<const Vec3> due_point;
   Span<const int> due_partner;
   Span<const int> first;
   Span<int> node;
   Span<Vec3> point;
   Span<int> partner;
-  Span<const Vec3> due_gradient;  // empty, or of the sides before side_end: those of networks
-  int side_end = 0;
   Span<double> active_phi;
   Span<Vec3> active_gradient;
+  Span<const int> again_first;
+  Span<int> again_at;  // of the active nodes
+  Span<Vec3> again_point;
+  Span<int> again_partner;
 
   SCREE_HD void operator()(int s) const {
-    int out = first[s];
-    bool const has_gradient = !due_gradient.empty() && s < side_end;
+    int out = first[s], again = again_first[s];
     double const outside = -adhesive_reach(scene, side[s]) / partner_unit(scene, side[s]);
     for (int i = due_first[s]; i < due_first[s + 1]; ++i) {
       if (!(phi[i] > outside)) continue;
       node[out] = listed_node[entry[i]];
       point[out] = due_point[i];
       partner[out] = due_partner[i];
-      if (has_gradient) active_phi[out] = phi[i], active_gradient[out] = due_gradient[i];
+      active_phi[out] = phi[i];
+      if (graded[i]) {
+        active_gradient[out] = gradient[i];
+      } else {
+        again_at[again] = out;
+        again_point[again] = due_point[i];
+        again_partner[again++] = due_partner[i];
+      }
       ++out;
     }
   }
+};
+
+struct CopyGradients {
+  Span<const int> at;
+  Span<const Vec3> from;
+  Span<Vec3> to;
+
+  SCREE_HD void operator()(int i) const { to[at[i]] = from[i]; }
 };
 
 void groups_of_items(std::vector<int> const& side_group, std::vector<int> const& first, std::vector<int>& group) {
@@ -179,56 +204,76 @@ void find_active_nodes(Queue const& queue, SceneView const& scene, StateView con
                        NetworkSet const& networks, GatherOptions const& options, NodeLists& lists,
                        ActiveNodes& active) {
   int const sides = static_cast<int>(lists.side.size());
-  active.count.resize(sides);
-  active.due_first.resize(sides + 1);
-  active.first.resize(sides + 1);
-  DueNodes due{scene,       state,      kinematics, lists.side,   lists.travelled,
-               lists.first, lists.node, lists.due,  active.count, active.due_first,
-               {},          {},         {}};
+  for (auto* v : {&active.count, &active.again_count}) v->resize(sides);
+  for (auto* v : {&active.due_first, &active.first, &active.again_first}) v->resize(sides + 1);
+  DueNodes due{scene,
+               state,
+               kinematics,
+               lists.side,
+               lists.travelled,
+               lists.first,
+               lists.node,
+               lists.due,
+               active.count,
+               active.due_first,
+               {},
+               {},
+               {},
+               {}};
   parallel_for(queue, "node_gather/due", sides, due, 512);
   exclusive_scan(queue, active.count, active.due_first);
   int const n_due = active.due_first[sides];
   active.due.resize(n_due);
   active.due_entry.resize(n_due);
+  active.graded.resize(n_due);
   groups_of_items(lists.group, active.due_first, active.due.group);
   due.entry = active.due_entry, due.point = active.due.point, due.partner = active.due.partner;
+  due.graded = active.graded;
   if (n_due > 0) parallel_for(queue, "node_gather/due", sides, due, 64);
   // A hair below the reach, since what is active is decided in units of the partner.
   double const gradient_from = -scene.cohesion_reach * (1 + 1e-12);
-  bool const has_gradients = evaluate_phi_and_some_gradients(queue, scene, networks, active.due, gradient_from);
+  evaluate_phi_and_marked_gradients(queue, scene, networks, active.due, active.graded, gradient_from);
   active.queries += n_due;
   parallel_for(queue, "node_gather/next_due", sides,
                NextDue{scene, lists.side, lists.travelled, options.brute_force, active.due_first, active.due_entry,
-                       active.due.phi, lists.due, active.count},
+                       active.due.phi, active.graded, lists.due, active.count, active.again_count},
                512);
   exclusive_scan(queue, active.count, active.first);
-  int const n = active.first[sides];
+  exclusive_scan(queue, active.again_count, active.again_first);
+  int const n = active.first[sides], n_again = active.again_first[sides];
   active.node.resize(n);
   active.sample.resize(n);
   active.sample.gradient.resize(n);
+  active.again.resize(n_again);
+  active.again_at.resize(n_again);
   groups_of_items(lists.group, active.first, active.sample.group);
-  FillActive fill{scene,
-                  lists.side,
-                  active.due_first,
-                  active.due_entry,
-                  lists.node,
-                  active.due.phi,
-                  active.due.point,
-                  active.due.partner,
-                  active.first,
-                  active.node,
-                  active.sample.point,
-                  active.sample.partner,
-                  {},
-                  lists.group[networks.net.size()],
-                  active.sample.phi,
-                  active.sample.gradient};
-  if (has_gradients) fill.due_gradient = active.due.gradient;
-  parallel_for(queue, "node_gather/compact", sides, fill, 512);
-  if (has_gradients)
-    evaluate_others_phi_gradient(queue, scene, networks, active.sample);
-  else
-    evaluate_phi_gradient(queue, scene, networks, active.sample);
+  groups_of_items(lists.group, active.again_first, active.again.group);
+  parallel_for(queue, "node_gather/compact", sides,
+               FillActive{scene,
+                          lists.side,
+                          active.due_first,
+                          active.due_entry,
+                          lists.node,
+                          active.due.phi,
+                          active.due.gradient,
+                          active.graded,
+                          active.due.point,
+                          active.due.partner,
+                          active.first,
+                          active.node,
+                          active.sample.point,
+                          active.sample.partner,
+                          active.sample.phi,
+                          active.sample.gradient,
+                          active.again_first,
+                          active.again_at,
+                          active.again.point,
+                          active.again.partner},
+               512);
+  evaluate_phi_gradient(queue, scene, networks, active.again);
+  active.fresh += n_again;
+  parallel_for(queue, "node_gather/compact", n_again,
+               CopyGradients{active.again_at, active.again.gradient, active.sample.gradient}, 512);
 }
 
 }  // namespace scree

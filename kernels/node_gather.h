@@ -39,6 +39,8 @@ struct RelativePose {
   Quat orientation;
 };
 
+double constexpr was_inside = -1;
+
 struct NodeLists {
   std::vector<Side> side;          // in the groups of QueryBatch by their partner; by pair within
   std::vector<int> group;          // first side of each group, end (query_groups + 1)
@@ -49,7 +51,8 @@ struct NodeLists {
   std::vector<double> margin;      // way the list covers [m]; negative: never built (n_sides)
   std::vector<int> first;          // (n_sides + 1)
   std::vector<int> node;           // relative to the shape's first node, ascending within a side
-  std::vector<double> due;         // a listed node is outside while travelled < due [m] (n_listed)
+  std::vector<double> due;         // a listed node is outside while travelled < due [m]; was_inside: it was inside
+                                   // at the last step (n_listed)
   std::int64_t rebuilt = 0;        // sides rebuilt since the start
   std::int64_t block_queries = 0;
 };
@@ -108,11 +111,14 @@ struct ActiveNodes {
   std::vector<int> node;     // relative to the shape's first node, ascending within a side
   QueryBatch sample;         // point, phi and gradient of each
   std::int64_t queries = 0;  // listed nodes evaluated since the start
-  // Scratch: the listed nodes that are due.
-  QueryBatch due;
-  std::vector<int> due_first, due_entry, count;
+  std::int64_t fresh = 0;    // those that came inside, and were evaluated again for their gradient
+  // Scratch: the listed nodes that are due, and those of them that came inside.
+  QueryBatch due, again;
+  std::vector<char> graded;  // has a gradient (n_due)
+  std::vector<int> due_first, due_entry, count, again_count, again_first, again_at;
 };
-// Evaluates the listed nodes that are due and says when they are due next.
+// Evaluates the listed nodes that are due and says when they are due next. A node that was inside at the last step most
+// likely still is: it gets phi and gradient in one pass. Which way a node went changes no bits of its result.
 void find_active_nodes(Queue const& queue, SceneView const& scene, StateView const& state, KinematicsView kinematics,
                        NetworkSet const& networks, GatherOptions const& options, NodeLists& lists, ActiveNodes& active);
 

@@ -40,7 +40,8 @@ struct QueryBatch {
     partner.resize(n);
     phi.resize(n);
   }
-  // Scratch, float images of the points in their network's frame.
+  // Scratch, float images of the points in their network's frame; within a group those with a gradient come last.
+  std::vector<int> net_slot;  // of each query of a network
   std::vector<Vec3f> net_point, net_gradient;
   std::vector<int> net_row;
   std::vector<float> net_phi;
@@ -52,12 +53,11 @@ struct QueryBatch {
 void evaluate_phi(Queue const& queue, SceneView const& scene, NetworkSet const& networks, QueryBatch& batch);
 void evaluate_phi_gradient(Queue const& queue, SceneView const& scene, NetworkSet const& networks, QueryBatch& batch);
 
-// phi of all points. On a device, which then saves a second launch, also the gradients of the networks' points with
-// phi times the partner's diameter above `gradient_from` [m]; says whether it did.
-bool evaluate_phi_and_some_gradients(Queue const& queue, SceneView const& scene, NetworkSet const& networks,
-                                     QueryBatch& batch, double gradient_from);
-// phi and gradient of the points whose phi is not a network's.
-void evaluate_others_phi_gradient(Queue const& queue, SceneView const& scene, NetworkSet const& networks,
-                                  QueryBatch& batch);
+// phi of all points, and in the same pass the gradient of those marked in `graded` (a flag a point): a point whose
+// gradient is wanted anyway is then evaluated once. On a device, where both are one launch, the marks of networks'
+// points are ignored and set where phi times the partner's diameter exceeds `gradient_from` [m]. The gradients of
+// points without a mark mean nothing afterwards.
+void evaluate_phi_and_marked_gradients(Queue const& queue, SceneView const& scene, NetworkSet const& networks,
+                                       QueryBatch& batch, std::vector<char>& graded, double gradient_from);
 
 }  // namespace scree

@@ -101,6 +101,7 @@ std::vector<std::pair<std::string, double>> figures(Contest& c, SteppedScene con
           {"block_queries_per_step", static_cast<double>(s.counts.block) / steps},
           {"listed_queries_per_step", static_cast<double>(s.counts.listed) / steps},
           {"gradient_queries_per_step", static_cast<double>(s.counts.active) / steps},
+          {"repeated_queries_per_step", static_cast<double>(s.counts.again) / steps},
           {"rebuilt_sides_per_step", static_cast<double>(s.counts.rebuilt) / steps},
           {"listed_nodes", static_cast<double>(s.work.gather.lists.node.size())},
           {"sides", static_cast<double>(s.work.gather.lists.side.size())}};

@@ -13,7 +13,7 @@ namespace {
 
 StepCounts counts_of(Simulation::Impl const& s) {
   NodeLists const& lists = s.work.gather.lists;
-  return {lists.rebuilt, lists.block_queries, s.work.active.queries, 0};
+  return {lists.rebuilt, lists.block_queries, s.work.active.queries, 0, s.work.active.fresh};
 }
 
 }  // namespace
@@ -68,7 +68,8 @@ void StepMeter::measure(SteppedScene& scene, int steps) {
   scene.wall.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
   scene.cpu.push_back(process_seconds() - cpu);
   StepCounts const after = counts_of(s);
-  scene.counts = {after.rebuilt - before.rebuilt, after.block - before.block, after.listed - before.listed, active};
+  scene.counts = {after.rebuilt - before.rebuilt, after.block - before.block, after.listed - before.listed, active,
+                  after.again - before.again};
   scene.stages.clear();
   for (auto const& e : s.profile.entries()) scene.stages[e.name] = e.seconds;
 }

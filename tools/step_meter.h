@@ -22,9 +22,10 @@ struct StepCounts {
   std::int64_t rebuilt = 0;  // sides whose node list was made anew
   std::int64_t block = 0;    // queries of blocks of nodes
   std::int64_t listed = 0;   // phi queries of nodes, rebuilds of lists included
-  std::int64_t active = 0;   // queries of phi and its gradient: nodes that carry force
+  std::int64_t active = 0;   // nodes that carry force: phi and its gradient
+  std::int64_t again = 0;    // of these evaluated twice, since only the first time showed that they are inside
 
-  std::int64_t queries() const { return block + listed + active; }
+  std::int64_t queries() const { return block + listed + again; }
 };
 
 // A state to start from, and what its rounds took.

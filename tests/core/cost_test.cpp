@@ -79,6 +79,7 @@ TEST(Cost, BruteForceAsksEveryNodeAndFourTimesTheNodesAreFourTimesTheQueries) {
     EXPECT_EQ(scene.counts.listed, steps * sides * nodes);
     EXPECT_EQ(scene.counts.block, steps * sides * s.impl().scene.shape[0].blocks);
     EXPECT_GT(scene.counts.active, 0);
+    EXPECT_EQ(scene.counts.again, scene.counts.active);
     EXPECT_EQ(scene.wall.size(), 2u);
     queries[k] = static_cast<double>(scene.counts.queries());
   }

@@ -101,6 +101,9 @@ TEST_F(Evaluators, NodeListsOfAMixtureGiveTheContactSetsOfBruteForceForAnyThread
   expect_same_contact_sets(lists, brute, 1000);
   EXPECT_LT(lists.impl().work.active.queries, brute.impl().work.active.queries / 10);
   EXPECT_EQ(lists.frame().orientation, brute.frame().orientation);
+  // Nodes that stay inside get phi and gradient in one pass, brute force asks twice: the same bits either way.
+  EXPECT_GT(lists.impl().work.active.fresh, 0);
+  EXPECT_LT(lists.impl().work.active.fresh, brute.impl().work.active.fresh / 5);
   // What was timed is what the plan names.
   for (char const* stage : {"sdf_harmonics/evaluate", "sdf_grid/evaluate", "sdf_mesh/evaluate"})
     EXPECT_TRUE(std::any_of(lists.profile().entries().begin(), lists.profile().entries().end(),

@@ -188,6 +188,38 @@ TEST_P(NetworkDeviceTest, MakesGradientsOnlyWhereTheyAreWanted) {
   }
 }
 
+// A mark moves a point to the pass with gradients and changes no bits; on a device phi decides, whatever was marked.
+TEST_P(NetworkDeviceTest, MarkedPointsGetTheirGradientInTheSamePass) {
+  Bodies bodies;
+  bodies.add(random_mlp(Activation::sine, 5, {13, 40, 40, 40, 1}, 1), 3);
+  bodies.add(random_mlp(Activation::leaky_relu, 0.01, {3, 30, 30, 1}, 2), 1);
+  QueryBatch whole = bodies.queries(500), untouched = whole;
+  evaluate_phi_gradient({}, bodies.view(), bodies.networks, whole);
+  device_->load(bodies.view(), bodies.networks);
+  std::shared_ptr<NetworkDevice> const device = std::move(device_);
+  for (bool on_device : {false, true}) {
+    bodies.networks.device = on_device ? device : nullptr;
+    QueryBatch marked = untouched;
+    std::vector<char> graded(marked.point.size());
+    for (std::size_t i = 0; i < graded.size(); ++i) graded[i] = i % 3 == 0;
+    std::vector<char> const asked = graded;
+    evaluate_phi_and_marked_gradients({}, bodies.view(), bodies.networks, marked, graded, 0.0);
+    int made = 0;
+    for (std::size_t i = 0; i < graded.size(); ++i) {
+      ASSERT_NEAR(marked.phi[i], whole.phi[i], host_fuses() ? 0 : 1e-5) << "point " << i;
+      ASSERT_EQ(bool(graded[i]), on_device ? marked.phi[i] > 0 : bool(asked[i])) << "point " << i;
+      if (graded[i] && host_fuses() && norm(marked.point[i]) <= 0.6) {
+        ASSERT_EQ(marked.gradient[i], whole.gradient[i]) << "point " << i;
+      }
+      if (!graded[i] && !on_device) {
+        ASSERT_EQ(marked.gradient[i].x, 77) << "nobody asked for it";
+      }
+      made += graded[i];
+    }
+    EXPECT_GT(made, 100);
+  }
+}
+
 TEST_P(NetworkDeviceTest, RefusesNetworksThatAreTooDeep) {
   Bodies bodies;
   bodies.add(random_mlp(Activation::sine, 5, widths(3, 16, sdf_fused::max_hidden + 1), 1), 1);
