@@ -4,8 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
-#include <stdexcept>
+#include <utility>
 
 namespace scree {
 
@@ -48,17 +47,11 @@ double distance_to(Box const& box, Vec3 p) {
 
 }  // namespace
 
-GrainRays::GrainRays(ResultsHeader const& header, Frame const& frame) : header_(header), frame_(frame) {
+GrainRays::GrainRays(ResultsHeader const& header, Frame const& frame, std::shared_ptr<NetworkDevice> device)
+    : header_(header), phi_(header, frame, std::move(device)) {
   std::size_t const n = frame.position.size();
-  if (header.shape.size() != n || header.diameter.size() != n || frame.orientation.size() != n)
-    throw std::invalid_argument("render: the frame's bodies do not match the header's");
-  for (Shape const& s : header.library.shape) {
-    phi_.push_back(surface_phi(header.library, s));
-    lipschitz_.push_back(s.kind == ShapeKind::analytic ? 1.0 : std::max(1.0, s.lipschitz));
-  }
   double sum = 0;
   for (std::size_t i = 0; i < n; ++i) {
-    rotation_.push_back(to_matrix(normalized(frame.orientation[i])));
     sum += header.diameter[i];
     Shape const& s = header.library.shape.at(static_cast<std::size_t>(header.shape[i]));
     if (frame.is_active(i) && is_finite(frame.position[i]))
@@ -127,40 +120,6 @@ void GrainRays::near(Vec3 point, double reach, std::vector<int>& found) const {
   }
 }
 
-Vec3 GrainRays::in_body_frame(int body, Vec3 world) const {
-  return transposed_times(rotation_[body], world - frame_.position[body]) / header_.diameter[body];
-}
-
-void GrainRays::evaluate(std::vector<Query> const& queries, std::vector<double>& phi,
-                         std::vector<Vec3>* gradient) const {
-  std::size_t const n = queries.size();
-  phi.resize(n);
-  if (gradient) gradient->resize(n);
-  // Counting sort by shape: one batch a shape.
-  std::vector<int> first(phi_.size() + 1, 0), order(n);
-  for (Query const& q : queries) ++first[header_.shape[q.body] + 1];
-  std::partial_sum(first.begin(), first.end(), first.begin());
-  std::vector<int> next(first.begin(), first.end() - 1);
-  std::vector<Vec3> point(n), slope(gradient ? n : 0);
-  std::vector<double> value(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    int const to = next[header_.shape[queries[i].body]]++;
-    order[to] = static_cast<int>(i);
-    point[to] = in_body_frame(queries[i].body, queries[i].point);
-  }
-  for (std::size_t s = 0; s < phi_.size(); ++s) {
-    int const at = first[s], count = first[s + 1] - first[s];
-    if (count == 0) continue;
-    phi_[s]({point.data() + at, count}, {value.data() + at, count},
-            gradient ? Span<Vec3>(slope.data() + at, count) : Span<Vec3>());
-  }
-  for (std::size_t k = 0; k < n; ++k) {
-    int const body = queries[order[k]].body;
-    phi[order[k]] = value[k] * header_.diameter[body];
-    if (gradient) (*gradient)[order[k]] = rotation_[body] * slope[k];
-  }
-}
-
 void GrainRays::trace(std::vector<Ray> const& rays, std::vector<RayHit>& hits, bool any) const {
   struct Walk {
     int ray, next, end;  // the visits still to make
@@ -189,12 +148,12 @@ void GrainRays::trace(std::vector<Ray> const& rays, std::vector<RayHit>& hits, b
     Walk w{r, begin, static_cast<int>(visits.size()), 0, 0};
     if (advance(w)) walks.push_back(w);
   }
-  std::vector<Query> queries;
+  std::vector<BodyPoint> queries;
   std::vector<double> phi;
   while (!walks.empty()) {
     queries.clear();
     for (Walk const& w : walks) queries.push_back({w.body, rays[w.ray].origin + rays[w.ray].direction * w.at});
-    evaluate(queries, phi, nullptr);
+    phi_.evaluate(queries, phi, nullptr);
     std::size_t kept = 0;
     for (std::size_t i = 0; i < walks.size(); ++i) {
       Walk w = walks[i];
@@ -204,7 +163,7 @@ void GrainRays::trace(std::vector<Ray> const& rays, std::vector<RayHit>& hits, b
         hits[w.ray] = {w.body, w.at};
         goes_on = advance(w);
       } else {
-        w.at += -phi[i] / lipschitz_[header_.shape[w.body]];
+        w.at += -phi[i] / phi_.lipschitz(w.body);
         if (w.at > w.leave) goes_on = advance(w);
       }
       if (goes_on) walks[kept++] = w;
@@ -215,16 +174,16 @@ void GrainRays::trace(std::vector<Ray> const& rays, std::vector<RayHit>& hits, b
 
 void GrainRays::normals(std::vector<Vec3> const& points, std::vector<int> const& bodies,
                         std::vector<Vec3>& normals) const {
-  std::vector<Query> queries(points.size());
+  std::vector<BodyPoint> queries(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) queries[i] = {bodies[i], points[i]};
   std::vector<double> phi;
-  evaluate(queries, phi, &normals);
+  phi_.evaluate(queries, phi, &normals);
   for (Vec3& n : normals) n = norm2(n) > 0 ? -normalized(n) : Vec3{0, 0, 1};
 }
 
 void GrainRays::clearance(std::vector<Vec3> const& points, double reach, std::vector<double>& distance) const {
   distance.assign(points.size(), reach);
-  std::vector<Query> queries;
+  std::vector<BodyPoint> queries;
   std::vector<double> before;  // from the point to its ball
   std::vector<int> owner, found;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -240,7 +199,7 @@ void GrainRays::clearance(std::vector<Vec3> const& points, double reach, std::ve
     }
   }
   std::vector<double> phi;
-  evaluate(queries, phi, nullptr);
+  phi_.evaluate(queries, phi, nullptr);
   for (std::size_t k = 0; k < queries.size(); ++k)
     distance[owner[k]] = std::min(distance[owner[k]], before[k] - phi[k]);
 }

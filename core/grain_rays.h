@@ -4,10 +4,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <vector>
 
+#include "core/grain_phi.h"
 #include "core/results.h"
-#include "shapes/phi_batch.h"
 
 namespace scree {
 
@@ -23,9 +24,9 @@ struct RayHit {
 
 class GrainRays {
  public:
-  // Inactive bodies and those at positions that are not finite are left out. Throws std::invalid_argument when frame
-  // and header disagree.
-  GrainRays(ResultsHeader const& header, Frame const& frame);
+  // Inactive bodies and those at positions that are not finite are left out. Throws what GrainPhi throws, which
+  // `device` is for.
+  GrainRays(ResultsHeader const& header, Frame const& frame, std::shared_ptr<NetworkDevice> device = nullptr);
 
   // First grain along each ray, to 1e-4 of its diameter. `any`: the first one found will do (shadows).
   // Thread-safe, as are the others; a ray's result does not depend on the batch.
@@ -37,10 +38,11 @@ class GrainRays {
   // Distance to the nearest grain, at most `reach`; outside the bounding balls by way of their nearest point.
   void clearance(std::vector<Vec3> const& points, double reach, std::vector<double>& distance) const;
 
+  bool on_device() const { return phi_.on_device(); }  // networks are: batches should be large
   bool empty() const { return balls_.empty(); }
   Box bounds() const { return bounds_; }  // of all bounding balls [m]; nothing when empty
   double mean_diameter() const { return mean_diameter_; }
-  Vec3 in_body_frame(int body, Vec3 world) const;  // [d]
+  Vec3 in_body_frame(int body, Vec3 world) const { return phi_.in_body_frame(body, world); }  // [d]
 
  private:
   struct Ball {
@@ -52,10 +54,6 @@ class GrainRays {
     Box box;
     int first, count, right;
   };
-  struct Query {
-    int body;
-    Vec3 point;  // world [m]
-  };
   struct Visit {
     double enter, leave;
     int ball;
@@ -64,15 +62,10 @@ class GrainRays {
   int build(int first, int count);
   void collect(Ray const& ray, std::vector<Visit>& visits) const;
   void near(Vec3 point, double reach, std::vector<int>& balls) const;
-  // phi [m] and unless null its gradient (world) of each query.
-  void evaluate(std::vector<Query> const& queries, std::vector<double>& phi, std::vector<Vec3>* gradient) const;
 
   ResultsHeader const& header_;
-  Frame const& frame_;
-  std::vector<Mat3> rotation_;     // body -> world
-  std::vector<PhiBatch> phi_;      // by shape
-  std::vector<double> lipschitz_;  // by shape
-  std::vector<Ball> balls_;        // in the order of the tree
+  GrainPhi phi_;
+  std::vector<Ball> balls_;  // in the order of the tree
   std::vector<Node> nodes_;
   Box bounds_;
   double mean_diameter_ = 1;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <exception>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -19,7 +20,8 @@ namespace scree {
 namespace {
 
 double constexpr infinity = std::numeric_limits<double>::infinity();
-int constexpr tile = 32;                // pixels an edge: 1,024 rays share the grains they meet
+int constexpr host_tile = 32;           // pixels an edge: 1,024 rays share the grains they meet
+int constexpr device_tile = 256;        // ... a launch and its copies repay themselves over some 10,000 queries
 double constexpr edge_contrast = 0.05;  // of display brightness: above it a pixel is sampled again
 
 // Linear RGB.
@@ -74,7 +76,7 @@ struct Sample {
 class Painter {
  public:
   Painter(ResultsHeader const& header, Frame const& frame, RenderOptions const& options)
-      : grains_(header, frame),
+      : grains_(header, frame, options.network_device),
         walls_(header, frame),
         stage_(header, walls_, grains_.empty() ? header.domain : grains_.bounds()) {
     camera_ = options.camera ? *options.camera : fitted_camera(stage_.shown(), options);
@@ -91,6 +93,7 @@ class Painter {
   }
   Camera const& camera() const { return camera_; }
   double colour_limit() const { return colour_limit_; }
+  bool on_device() const { return grains_.on_device(); }
 
   void paint(std::vector<Ray> const& rays, std::vector<Sample>& samples) const {
     std::size_t const n = rays.size();
@@ -299,16 +302,28 @@ std::vector<int> edge_pixels(std::vector<Sample> const& s, int width, int height
   return found;
 }
 
-// fn(first, last) over [0, n) in steps, on threads; every step writes only what is its own.
+// fn(first, last) over [0, n) in steps, on threads; every step writes only what is its own. What one throws (a device
+// that is lost) is thrown again here.
 template <class Function>
 void in_steps(int threads, int n, int step, Function const& function) {
   int const steps = (n + step - 1) / step;
+  std::exception_ptr thrown;
 #pragma omp parallel for schedule(dynamic) num_threads(threads) if (threads > 1)
-  for (int i = 0; i < steps; ++i) function(i * step, std::min(n, (i + 1) * step));
+  for (int i = 0; i < steps; ++i) {
+    try {
+      function(i * step, std::min(n, (i + 1) * step));
+    } catch (...) {
+#pragma omp critical(scree_render)
+      thrown = std::current_exception();
+    }
+  }
+  if (thrown) std::rethrow_exception(thrown);
 }
 
+int tile_of(Painter const& painter) { return painter.on_device() ? device_tile : host_tile; }
+
 void first_pass(Painter const& painter, Lens const& lens, RenderOptions const& o, std::vector<Sample>& pixels) {
-  int const across = (o.width + tile - 1) / tile, down = (o.height + tile - 1) / tile;
+  int const tile = tile_of(painter), across = (o.width + tile - 1) / tile, down = (o.height + tile - 1) / tile;
   in_steps(o.threads, across * down, 1, [&](int t, int) {
     int const x0 = t % across * tile, y0 = t / across * tile;
     std::vector<Ray> rays;
@@ -328,6 +343,7 @@ void first_pass(Painter const& painter, Lens const& lens, RenderOptions const& o
 void smooth(Painter const& painter, Lens const& lens, RenderOptions const& o, std::vector<Sample>& pixels) {
   static constexpr double offset[4][2] = {{0.375, 0.125}, {0.875, 0.375}, {0.125, 0.625}, {0.625, 0.875}};
   std::vector<int> const edges = edge_pixels(pixels, o.width, o.height);
+  int const tile = tile_of(painter);
   in_steps(o.threads, static_cast<int>(edges.size()), tile * tile / 4, [&](int first, int last) {
     std::vector<Ray> rays;
     std::vector<Sample> samples;

@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "core/png_file.h"
 #include "core/render_colours.h"
 #include "core/results.h"
+#include "kernels/network_device.h"
 
 namespace scree {
 
@@ -23,10 +25,11 @@ struct CutPlane {
 
 struct RenderOptions {
   int width = 1280, height = 960;
-  int threads = 1;               // the picture does not depend on it
-  std::optional<Camera> camera;  // absent: chosen so that the grains fill the picture
-  double azimuth = -0.96;        // of the chosen camera round world z, from +x [rad]
-  double elevation = 0.46;       // of the chosen camera above the horizon [rad]
+  int threads = 1;                                // the picture does not depend on it
+  std::shared_ptr<NetworkDevice> network_device;  // evaluates the networks; null: the host does. The same picture
+  std::optional<Camera> camera;                   // absent: chosen so that the grains fill the picture
+  double azimuth = -0.96;                         // of the chosen camera round world z, from +x [rad]
+  double elevation = 0.46;                        // of the chosen camera above the horizon [rad]
   ColourBy colour = ColourBy::kind;
   double colour_limit = 0;      // of a scale: its upper end; 0: the largest value in the frame
   std::optional<CutPlane> cut;  // grains alone; walls are as they are
@@ -47,7 +50,7 @@ struct Rendering {
 // Sun with shadows, sky light with ambient occlusion, a colour for each kind of grain (shape name up to '/'). Walls
 // that face up are the floor; the others are drawn as glass where they face the camera from behind the grains, and as
 // their edges alone where they stand before them. Throws std::invalid_argument for impossible options or when frame
-// and header disagree.
+// and header disagree, DeviceError.
 Rendering render(ResultsHeader const& header, Frame const& frame, RenderOptions const& options = {});
 
 // Share of the bodies that show in at least `pixels` pixels: a picture's machine check.

@@ -33,15 +33,19 @@ std::filesystem::path share_folder() {
   return error ? std::filesystem::path() : program.parent_path().parent_path() / "share" / "scree";
 }
 
+void add_machine_options(CLI::App& command, std::string& device, int& threads) {
+  command.add_option("--device", device, "cpu, cuda or auto")
+      ->check(CLI::IsMember({"cpu", "cuda", "auto"}))
+      ->capture_default_str();
+  command.add_option("--threads", threads, "CPU threads (default: all cores)")->check(CLI::Range(1, 4096));
+}
+
 void add_case_options(CLI::App& command, CaseArguments& arguments) {
   command.add_option("case", arguments.file, "Case file (TOML)")->required();
   command.add_option("--set", arguments.overrides, "Override a key: time.end=2, grains.mix.count=50; repeatable")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
-  command.add_option("--device", arguments.device, "cpu, cuda or auto")
-      ->check(CLI::IsMember({"cpu", "cuda", "auto"}))
-      ->capture_default_str();
-  command.add_option("--threads", arguments.threads, "CPU threads (default: all cores)")->check(CLI::Range(1, 4096));
+  add_machine_options(command, arguments.device, arguments.threads);
   arguments.share = share_folder();
 }
 
@@ -124,7 +128,7 @@ void add_render(CLI::App& app, RenderArguments& a, std::function<int()>& chosen)
       ->expected(6);
   c->add_option("--ids", a.ids,
                 "Also write which body each pixel shows: number + 1 = red + 256 green + 65536 blue, 0: none");
-  c->add_option("--threads", a.threads, "CPU threads (default: all cores)")->check(CLI::Range(1, 4096));
+  add_machine_options(*c, a.device, a.threads);
   c->add_flag("--recover", a.recover, "Read the unfinished file of a run that was killed");
   c->callback([&] { chosen = [&] { return render_command(a); }; });
 }

@@ -47,6 +47,7 @@ struct RenderArguments {
   std::string colour = "kind";               // see core/render_colours.h
   double colour_limit = 0;                   // of a scale; 0: the largest value in the (first) frame
   std::vector<double> cut;                   // point and normal of a plane, 6 numbers; empty: none
+  std::string device = "auto";               // cpu, cuda, auto: evaluates the networks
   int threads = 0;
   bool recover = false;
 };

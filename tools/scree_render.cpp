@@ -62,12 +62,16 @@ std::filesystem::path numbered(std::filesystem::path const& file, int number) {
   return file.parent_path() / fmt::format("{}-{:04}{}", file.stem().string(), number, file.extension().string());
 }
 
-RenderOptions read_options(RenderArguments const& arguments) {
+// `device`: one line on where it runs.
+RenderOptions read_options(RenderArguments const& arguments, std::string& device) {
   RenderOptions options;
   read_size(arguments.size, options);
   CaseArguments machine;
+  machine.device = arguments.device;
   machine.threads = arguments.threads;
-  options.threads = choose_threads(machine);
+  SimulationOptions const backend = choose_backend(machine, &device);
+  options.threads = backend.threads;
+  options.network_device = backend.network_device;
   double constexpr degree = 3.141592653589793 / 180;
   if (arguments.azimuth) options.azimuth = *arguments.azimuth * degree;
   if (arguments.elevation) options.elevation = *arguments.elevation * degree;
@@ -91,12 +95,14 @@ void say(std::filesystem::path const& picture, Frame const& frame, int bodies, R
 }  // namespace
 
 int render_command(RenderArguments const& arguments) {
-  RenderOptions options = read_options(arguments);
+  std::string device;
+  RenderOptions options = read_options(arguments, device);
   ResultsReader const reader(arguments.results, arguments.recover);
   bool const sequence = !arguments.frames.empty();
   std::vector<int> const frames =
       sequence ? read_frames(arguments.frames, reader.frames()) : std::vector<int>{arguments.frame};
   int const bodies = static_cast<int>(reader.header().shape.size());
+  fmt::print("device    {}\n", device);
   for (int const k : frames) {
     Frame const frame = reader.frame(k);
     Rendering const rendering = render(reader.header(), frame, options);

@@ -1,8 +1,8 @@
 #!/bin/sh
 # verify_gpu.sh: everything that has to be shown on a GPU, in two parts of a few minutes each.
 #   verify_gpu.sh build   configure and build engine, kernel tests and bench_device for this machine's GPU in build/gpu
-#   verify_gpu.sh run     kernel tests, compute-sanitizer, a run on the GPU against the CPU, bench_device; a table of
-#                         what passed, exit status 1 where something did not
+#   verify_gpu.sh run     kernel tests, compute-sanitizer, a run and a picture on the GPU against the CPU, bench_device;
+#                         a table of what passed, exit status 1 where something did not
 # A folder `offline` (tools/offline_bundle.sh) beside the sources is used when it is there. OUT=DIR: where logs, JSON and
 # the table go (default build/gpu/verify). ARCH=90: compute capability, asked of nvidia-smi when not given.
 # SPDX-License-Identifier: Apache-2.0
@@ -29,7 +29,7 @@ build_all() {
   command -v ninja >/dev/null && generator="-G Ninja"
   # shellcheck disable=SC2086 # two words or none
   cmake -S "$root" -B "$build" $generator "$@" &&
-    cmake --build "$build" --parallel --target scree bench_device network_device_test core_hybrid_test kernels_test sdf_batch_test
+    cmake --build "$build" --parallel --target scree bench_device network_device_test core_hybrid_test core_render_test kernels_test sdf_batch_test
 }
 
 passed=0
@@ -55,6 +55,17 @@ same_run() {
   cmp "$out/cpu.stl" "$out/cuda.stl"
 }
 
+# same_picture: that packing as a picture of 1280 x 960, drawn by both, is the same to the byte; how long each took.
+same_picture() {
+  for device in cpu cuda; do
+    began=$(date +%s%N)
+    "$build/bin/scree" render "$out/cpu/results.h5" -o "$out/$device.png" --ids "$out/$device-ids.png" --device $device || return 1
+    eval "$device=$((($(date +%s%N) - began) / 1000000))"
+  done
+  echo "picture 1280 x 960: $cpu ms on the CPU, $cuda ms with networks on the GPU"
+  cmp "$out/cpu.png" "$out/cuda.png" && cmp "$out/cpu-ids.png" "$out/cuda-ids.png"
+}
+
 run_all() {
   mkdir -p "$out"
   : >"$out/table.txt"
@@ -62,6 +73,8 @@ run_all() {
   tests=$build/tests
   check network_device_test ran_on_gpu "$tests/network_device_test"
   check core_hybrid_test ran_on_gpu "$tests/core_hybrid_test"
+  check core_render_test ran_on_gpu "$tests/core_render_test"
+  grep -h 'pixels differ.*cuda' "$out/core_render_test.log" | tee -a "$out/table.txt"
   check kernels_test "$tests/kernels_test"
   check bench_device "$build/bin/bench_device" --output "$out/bench_device.json"
   sed -n '/Gqueries/,$p' "$out/bench_device.log" | tee -a "$out/table.txt"
@@ -75,6 +88,8 @@ run_all() {
   fi
   check packing_cpu_equals_gpu same_run
   grep -h 'particle-steps' "$out/cpu/run.log" "$out/cuda/run.log" | tee -a "$out/table.txt"
+  check picture_cpu_equals_gpu same_picture
+  grep -h '^picture 1280' "$out/picture_cpu_equals_gpu.log" | tee -a "$out/table.txt"
   echo "$passed passed, $failed failed" | tee -a "$out/table.txt"
   [ "$failed" -eq 0 ]
 }

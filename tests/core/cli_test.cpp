@@ -134,6 +134,17 @@ TEST_F(Program, DeviceThatIsNotThere) {
   Outcome const automatic = scree("run small.toml --device auto");
   EXPECT_EQ(automatic.code, 0);
   EXPECT_NE(automatic.text.find("(auto: "), std::string::npos) << automatic.text;
+
+  std::string const render = "render small.out/results.h5 -o picture.png --size 64x48 --device ";
+  Outcome const cuda_picture = scree(render + "cuda");
+  EXPECT_EQ(cuda_picture.code, 3);
+  EXPECT_NE(cuda_picture.text.find("--device cuda: "), std::string::npos) << cuda_picture.text;
+  EXPECT_FALSE(fs::exists(folder_ / "picture.png"));
+  Outcome const automatic_picture = scree(render + "auto");
+  EXPECT_EQ(automatic_picture.code, 0);
+  EXPECT_NE(automatic_picture.text.find("(auto: "), std::string::npos) << automatic_picture.text;
+  EXPECT_TRUE(fs::exists(folder_ / "picture.png"));
+  EXPECT_EQ(scree(render + "gpu").code, 2);
 }
 
 TEST_F(Program, OutputFolderWithContentNeedsForce) {

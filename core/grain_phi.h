@@ -1,0 +1,55 @@
+// grain_phi.h: phi of the grains of one frame at many points, networks in batches on the host or on a device.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "core/results.h"
+#include "kernels/sdf_queries.h"
+#include "shapes/phi_batch.h"
+
+namespace scree {
+
+// A point to be asked of one body.
+struct BodyPoint {
+  int body;
+  Vec3 point;  // world [m]
+};
+
+// Networks are asked as the simulation does, one batch for all the shapes of a decoder; other kinds shape by shape
+// through surface_phi, on the host. The bits do not depend on the batch, nor on the device where the host's instruction
+// set has a fused multiply-add.
+class GrainPhi {
+ public:
+  // Both references must outlive this. `device`: evaluates the networks; null: the host does. Throws
+  // std::invalid_argument when frame and header disagree, and what NetworkDevice::load throws.
+  GrainPhi(ResultsHeader const& header, Frame const& frame, std::shared_ptr<NetworkDevice> device);
+
+  // phi [m] and unless null its gradient (world) of each query; points within 1.1 bounding radii of their body. From
+  // many threads at once: a device takes their batches one after the other. Throws DeviceError.
+  void evaluate(std::vector<BodyPoint> const& queries, std::vector<double>& phi, std::vector<Vec3>* gradient) const;
+
+  bool on_device() const { return networks_.device != nullptr; }  // some grains are networks, a device evaluates them
+  double lipschitz(int body) const { return lipschitz_[header_.shape[body]]; }  // of phi outside the solid
+  Vec3 in_body_frame(int body, Vec3 world) const;                               // [d]
+
+ private:
+  void place_networks(std::shared_ptr<NetworkDevice> device);
+  SceneView view() const;
+
+  ResultsHeader const& header_;
+  Frame const& frame_;
+  std::vector<Mat3> rotation_;     // body -> world
+  std::vector<double> lipschitz_;  // by shape
+  // Shapes in the order of batches: by network, then all without one.
+  std::vector<int> shape_at_, place_of_;  // of each place; of each shape
+  std::vector<int> first_place_;          // of each network, then of the shapes without one
+  std::vector<PhiBatch> other_phi_;       // by shape; empty for networks
+  std::vector<ShapeRecord> record_;       // by shape
+  NetworkSet networks_;
+  mutable std::mutex device_turn_;
+};
+
+}  // namespace scree
