@@ -1,5 +1,5 @@
-// render_device_test.cpp: pictures of grains of every kind whose networks a device evaluates are the host's, bit for
-// bit. SPDX-License-Identifier: Apache-2.0
+// render_device_test.cpp: pictures of grains of every kind, networks on a device, are those of the host bit for bit.
+// SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
 #include <algorithm>
