@@ -126,7 +126,7 @@ Meter make_meter(ResultsHeader const& header, Frame const& frame, int points, in
   return meter;
 }
 
-OverlapReport summarise(std::vector<OverlapAt> const& pairs, std::size_t bodies) {
+OverlapReport summarise(std::vector<OverlapAt> const& pairs, std::size_t bodies, std::size_t active) {
   OverlapReport report;
   report.of_body.assign(bodies, 0);
   std::vector<double> depth;
@@ -141,7 +141,7 @@ OverlapReport summarise(std::vector<OverlapAt> const& pairs, std::size_t bodies)
   }
   if (depth.empty()) return report;
   report.contacts = static_cast<int>(depth.size());
-  report.coordination = (2.0 * report.contacts - report.wall_contacts) / static_cast<double>(bodies);
+  report.coordination = (2.0 * report.contacts - report.wall_contacts) / static_cast<double>(active);
   std::sort(depth.begin(), depth.end());
   report.mean = std::accumulate(depth.begin(), depth.end(), 0.0) / report.contacts;
   report.p99 = depth[(99 * (depth.size() - 1) + 99) / 100];  // rounded up: the deeper neighbour
@@ -159,7 +159,7 @@ OverlapReport measure_overlap(ResultsHeader const& header, Frame const& frame, i
   for (std::size_t k = 0; k < pairs.size(); ++k) pairs[k] = meter.measure(pairs[k].a, pairs[k].b);
   std::size_t active = 0;
   for (std::size_t i = 0; i < header.shape.size(); ++i) active += frame.is_active(i);
-  return summarise(pairs, active);
+  return summarise(pairs, header.shape.size(), active);
 }
 
 }  // namespace scree

@@ -257,5 +257,20 @@ TEST(OverlapMeter, WallsThatMoveAreWhereTheFrameHasThem) {
   EXPECT_GE(r.grain_wall.depth, 0.02 - spacing * spacing);
 }
 
+// A body that has left takes no part, and every other keeps its own number.
+TEST(OverlapMeter, BodiesThatLeftKeepTheirPlaces) {
+  Scenery s;
+  for (double x : {0.0, 0.2, 0.298}) s.add(make_sphere(), {x, 0, 0});
+  s.header.activity = true;
+  s.frame.activity = {Activity::deleted, Activity::active, Activity::active};
+  OverlapReport const r = s.measure();
+  ASSERT_EQ(r.of_body.size(), 3u);
+  EXPECT_EQ(r.of_body[0], 0);
+  EXPECT_EQ(r.of_body[1], r.grain_grain.depth);
+  EXPECT_EQ(r.of_body[2], r.grain_grain.depth);
+  EXPECT_NEAR(r.grain_grain.depth, 0.02, 2 * spacing * spacing / 4);  // as above
+  EXPECT_EQ(r.coordination, 1);                                       // of those that are there
+}
+
 }  // namespace
 }  // namespace scree
