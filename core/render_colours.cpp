@@ -93,14 +93,18 @@ char const* unit_of(ColourBy by) {
   }
 }
 
+std::vector<double> body_values(ResultsHeader const& header, Frame const& frame, ColourBy by, int threads) {
+  if (!is_scale(by)) throw std::invalid_argument("names have no number");
+  if (by == ColourBy::overlap) return measure_overlap(header, frame, overlap_points, threads).of_body;
+  std::vector<double> value;
+  for (Vec3 const& v : by == ColourBy::speed ? frame.velocity : frame.spin) value.push_back(norm(v));
+  return value;
+}
+
 std::vector<Vec3> body_colours(ResultsHeader const& header, Frame const& frame, ColourBy by, double& limit,
                                int threads) {
   if (!is_scale(by)) return by_name(header, by);
-  std::vector<double> value;
-  if (by == ColourBy::overlap)
-    value = measure_overlap(header, frame, overlap_points, threads).of_body;
-  else
-    for (Vec3 const& v : by == ColourBy::speed ? frame.velocity : frame.spin) value.push_back(norm(v));
+  std::vector<double> const value = body_values(header, frame, by, threads);
   if (!(limit > 0)) {
     limit = 0;
     for (std::size_t i = 0; i < value.size(); ++i)

@@ -22,9 +22,12 @@ ColourBy colour_by(std::string const& name);  // throws std::invalid_argument na
 bool is_scale(ColourBy by);                   // a number, not a name
 char const* unit_of(ColourBy by);             // of that number; "" for names
 
+// That number of each body; `threads` measure overlaps and change no bit. Throws std::invalid_argument for names.
+std::vector<double> body_values(ResultsHeader const& header, Frame const& frame, ColourBy by, int threads);
+
 // Linear RGB of each body. Names take a palette in their order and vary a little from body to body; numbers go from
 // dark blue at 0 over green to yellow at `limit` (0: the largest of the frame's active bodies, which is then put
-// there). `threads` measure overlaps and change no bit.
+// there).
 std::vector<Vec3> body_colours(ResultsHeader const& header, Frame const& frame, ColourBy by, double& limit,
                                int threads);
 

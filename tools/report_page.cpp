@@ -165,7 +165,7 @@ std::string data_json(ReportPage const& page) {
                 [](StageRow const& s) {
                   return fmt::format("[{},{},{},{}]", json_string(s.name), json_number(s.seconds), s.calls, s.items);
                 }),
-      scene_json(r.header(), r.frame(-1)));
+      scene_json(r.header(), r.frame(-1), page.threads));
 }
 
 void replace(std::string& text, std::string const& word, std::string const& by) {

@@ -17,6 +17,7 @@ struct ReportPage {
   std::string run_json;      // stages.json of the run; empty: none
   std::string measures_csv;  // what was measured over time (time,name,quantity,value); empty: none
   std::string title;
+  int threads = 1;  // the page does not depend on it
 };
 
 // The page's text. Everything is inside: no network access, no other file. At most some 400 rows of the ledger, 600

@@ -10,6 +10,7 @@
 #include <map>
 
 #include "core/grain_mesh.h"
+#include "core/render_colours.h"
 #include "core/surface_export.h"
 #include "tools/report_page.h"
 
@@ -69,7 +70,7 @@ void grow(Box& box, Vec3 p, double by) {
 
 }  // namespace
 
-std::string scene_json(ResultsHeader const& header, Frame const& frame) {
+std::string scene_json(ResultsHeader const& header, Frame const& frame, int threads) {
   auto const shown = shown_grains(header, frame);
   std::map<int, int> place;  // of a shape among those shown
   for (std::size_t const i : shown) place.emplace(header.shape[i], static_cast<int>(place.size()));
@@ -79,6 +80,7 @@ std::string scene_json(ResultsHeader const& header, Frame const& frame) {
   for (auto const& [shape, at] : place)
     shapes[at] = shape_json(light_mesh(header.library, header.library.shape[shape], triangles));
 
+  std::vector<double> const overlap = body_values(header, frame, ColourBy::overlap, threads);
   std::map<std::string, int> kinds;
   Box box = empty_box();
   std::string grains;
@@ -88,9 +90,9 @@ std::string scene_json(ResultsHeader const& header, Frame const& frame) {
     Vec3 const x = frame.position[i];
     Quat const q = frame.orientation[i];
     grow(box, x, 0.5 * header.diameter[i]);
-    grains += fmt::format("{}[{},{:.6g},{:.6g},{:.6g},{:.4f},{:.4f},{:.4f},{:.4f},{:.5g},{:.4g},{},{}]",
+    grains += fmt::format("{}[{},{:.6g},{:.6g},{:.6g},{:.4f},{:.4f},{:.4f},{:.4f},{:.5g},{:.4g},{},{},{:.3g}]",
                           grains.empty() ? "" : ",", place[header.shape[i]], x.x, x.y, x.z, q.w, q.x, q.y, q.z,
-                          header.diameter[i], norm(frame.velocity[i]), kind, header.group[i]);
+                          header.diameter[i], norm(frame.velocity[i]), kind, header.group[i], overlap[i]);
   }
 
   std::vector<TriangleMesh> const meshes = wall_meshes(header, frame);

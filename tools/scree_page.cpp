@@ -48,6 +48,7 @@ int report_command(ReportArguments const& arguments) {
   options.width = 1120, options.height = 840;
   ReportPage page;
   page.results = &results;
+  page.threads = options.threads;
   page.picture = render(results.header(), results.frame(-1), options).image;
   page.run_json = text_of(folder / "stages.json");
   page.measures_csv = text_of(folder / "measures.csv");

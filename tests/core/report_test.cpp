@@ -7,8 +7,10 @@
 #include <fstream>
 #include <sstream>
 
+#include "shapes/analytic_shapes.h"
 #include "tests/support/shell.h"
 #include "tools/report_page.h"
+#include "tools/report_scene.h"
 
 namespace scree {
 namespace {
@@ -39,6 +41,32 @@ TEST(ReportText, ThinningKeepsFirstAndLast) {
   auto const some = thinned(1001, 11);
   ASSERT_EQ(some.size(), 11u);
   for (std::size_t i = 0; i < some.size(); ++i) EXPECT_EQ(some[i], 100 * i);
+}
+
+// Two of three spheres are 0.02 d in each other: the last number of their rows is that, the third's is 0.
+TEST(ReportScene, RowsEndWithTheDeepestOverlap) {
+  ResultsHeader header;
+  header.library.shape = {make_sphere()};
+  header.shape_name = {"sphere"};
+  header.domain = {{0, 0, 0}, {3, 1, 1}};
+  Frame frame;
+  for (double x : {0.0, 0.98, 3.0}) {
+    header.shape.push_back(0);
+    header.diameter.push_back(1);
+    header.group.push_back(7);
+    frame.position.push_back({x, 0, 0});
+    frame.orientation.push_back({});
+    frame.velocity.push_back({});
+  }
+  std::string const json = scene_json(header, frame, 1);
+  std::vector<double> overlap;
+  for (std::size_t at = json.find(",7,"); at != std::string::npos; at = json.find(",7,", at + 1))
+    overlap.push_back(std::stod(json.substr(at + 3)));
+  ASSERT_EQ(overlap.size(), 3u) << json.substr(0, 500);
+  // Points stand at most 0.05 apart, so the meter misses s^2 / (4 R) = 0.0013 at most.
+  for (int i : {0, 1}) EXPECT_NEAR(overlap[i], 0.02, 0.0013);
+  EXPECT_EQ(overlap[2], 0);
+  EXPECT_EQ(json, scene_json(header, frame, 2));
 }
 
 char const* const case_text = R"([case]
@@ -136,10 +164,14 @@ TEST_F(Report, OpensInABrowserWithoutAnError) {
       "--enable-unsafe-swiftshader --enable-logging=stderr --virtual-time-budget=8000 "
       "--user-data-dir=" +
       (folder / "profile").string() + " --dump-dom file://";
-  Outcome const page = shell(browser + (folder / "out/report.html").string());
+  std::ofstream(folder / "chosen.html")
+      << html << "<script>const menu = document.getElementById('colour'); menu.value = 'overlap';"
+      << "menu.dispatchEvent(new Event('change'));</script>";
+  Outcome const page = shell(browser + (folder / "chosen.html").string());
   EXPECT_NE(page.text.find("data-ready=\"yes\""), std::string::npos) << page.text.substr(0, 2000);
   EXPECT_EQ(page.text.find("CONSOLE"), std::string::npos) << page.text.substr(0, 2000);
   EXPECT_NE(page.text.find("<path d=\"M"), std::string::npos) << "no curve was drawn";
+  EXPECT_NE(page.text.find("<span id=\"view_scale\">each grain's deepest, up to "), std::string::npos) << "no scale";
 
   // The check itself: a page with an error is noticed.
   std::ofstream(folder / "broken.html") << "<script>undefined_name();</script>";
