@@ -91,7 +91,7 @@ void PackedMlp::Data::pack() {
   padded = width;
   for (int l = 1; l <= hidden; ++l) padded[l] = round_up(padded[l], panel);
   int const widest = *std::max_element(padded.begin() + 1, padded.end());
-  scratch = sdf_cpu::scratch_rows(hidden, widest) * isa->lanes;
+  scratch = sdf_cpu::scratch_rows(hidden, widest) * isa->lanes();
 
   std::size_t const layer_floats = std::size_t(widest) * widest;  // an upper bound, a whole number of lines
   std::size_t const padded_layer = (layer_floats + 15) / 16 * 16, padded_row = std::size_t(round_up(widest, 16));
@@ -185,21 +185,21 @@ void evaluate(Queue const& queue, PackedMlp const& net, Span<const float> bias_r
               Span<const int> row, Span<float> phi, Vec3f* gradient) {
   static_assert(sizeof(Vec3f) == 3 * sizeof(float));
   auto const& data = net.data();
-  int const n = point.size(), lanes = data.isa->lanes;
+  int const n = point.size(), lanes = data.isa->lanes();
   int const blocks = (n + lanes - 1) / lanes, tasks = (blocks + blocks_per_task - 1) / blocks_per_task;
   int const threads = std::clamp(queue.threads, 1, tasks);
   auto const which = static_cast<int>(data.net.activation);
-  auto const function = gradient ? data.isa->gradient[which] : data.isa->forward[which];
   thread_local std::vector<Line> lines;  // kept: a fresh allocation a call would fault its pages in again
   std::size_t const stride = std::size_t(round_up(data.scratch, 16)) + 16;  // a line apart: threads share none
   float* const scratch = aligned(lines, stride * threads);
 
   auto const run = [&](int task, int thread) {
     for (int b = task * blocks_per_task; b < std::min(blocks, (task + 1) * blocks_per_task); ++b) {
-      int const first = b * lanes;
-      function(data.view, {&point.data[first].x, row.empty() ? nullptr : row.data + first, bias_rows.data,
-                           std::min(lanes, n - first), phi.data + first, gradient ? &gradient[first].x : nullptr,
-                           scratch + stride * thread});
+      int const first = b * lanes, count = std::min(lanes, n - first);
+      sdf_cpu::BlockFunctions const& wide = data.isa->blocks[(count - 1) / data.isa->size];
+      auto const function = gradient ? wide.gradient[which] : wide.forward[which];
+      function(data.view, {&point.data[first].x, row.empty() ? nullptr : row.data + first, bias_rows.data, count,
+                           phi.data + first, gradient ? &gradient[first].x : nullptr, scratch + stride * thread});
     }
   };
   if (threads == 1) {

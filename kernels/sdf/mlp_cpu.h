@@ -34,13 +34,21 @@ struct BlockJob {
 
 using BlockFunction = void (*)(PackedView const&, BlockJob const&);
 
-// Kernels of one instruction set, indexed by Activation.
-struct Isa {
-  char const* name;
-  int lanes;  // points a block
-  int panel;  // neurons a panel
+// Indexed by Activation.
+struct BlockFunctions {
   BlockFunction forward[3];
   BlockFunction gradient[3];
+};
+
+// Kernels of one instruction set.
+struct Isa {
+  char const* name;
+  int size;                  // points a vector
+  int vectors;               // of a full block, at most 3
+  int panel;                 // neurons a panel
+  BlockFunctions blocks[3];  // for blocks of 1 .. vectors vectors
+
+  constexpr int lanes() const { return size * vectors; }  // points of a full block
 };
 
 // Scratch a block needs, in rows of `lanes` floats: coordinates or gradient (3), bias of mixed rows, two activation
