@@ -144,7 +144,7 @@ void evaluate_contacts(Queue const& queue, Scene const& scene, Effects const& ef
                work.next_rolling_history.stiffness, work.rolling};
   }
   if (effects.node_contacts) {
-    GatherOptions const gather{dt, settings.brute_force};
+    GatherOptions const gather{dt, settings.skin_steps, settings.brute_force};
     update_node_lists(queue, view, now, kinematics, scene.networks, gather, work.gather);
     find_active_nodes(queue, view, now, kinematics, scene.networks, gather, work.gather.lists, work.active);
     reduce_node_contacts(queue, view, now, kinematics, options, work.pair, work.closed_form, work.gather.lists,

@@ -9,6 +9,7 @@ namespace scree {
 
 struct ContactSettings {
   bool brute_force = false;
+  double skin_steps = steps_a_skin;
   bool normalise_gradient = false;
 };
 

@@ -34,6 +34,7 @@ Simulation::Impl::Impl(Case const& c_, SimulationOptions const& options_, Frame 
   effects = effects_of(c, scene);
   if (std::vector<std::string> const found = load_problems(c, scene); !found.empty()) throw InputError(found);
   contacts.brute_force = options.brute_force;
+  contacts.skin_steps = options.skin_steps.value_or(steps_a_skin);
   int const n = scene.bodies();
   estimate = estimate_critical_step(c, scene, placement);
   if (start) {

@@ -26,7 +26,8 @@ class WatchStop : public std::runtime_error {
 
 struct SimulationOptions {
   int threads = 1;
-  bool brute_force = false;  // test oracle: every node of every touching pair is evaluated at every step
+  bool brute_force = false;               // test oracle: every node of every touching pair is evaluated at every step
+  std::optional<double> skin_steps = {};  // of node_gather.h: changes what a step costs, not one bit of its result
   std::shared_ptr<NetworkDevice> network_device = nullptr;  // evaluates the networks (hybrid mode); null: the host does
 };
 

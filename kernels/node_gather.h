@@ -96,8 +96,13 @@ SCREE_HD inline double way_to_contact(SceneView const& scene, Side const& side, 
 void assign_sides(SceneView const& scene, int networks, Span<const Pair> pair, Span<const int> old_pair,
                   Span<const char> closed_form, NodeGather& gather, std::vector<int>& old_side);
 
+// Steps of a pair's motion that the skin of a fresh list covers. A longer skin makes rebuilds rarer and lists longer;
+// listed nodes cost little before they are due. `scree cost` sweeps it: skins.csv.
+double constexpr steps_a_skin = 40;
+
 struct GatherOptions {
-  double time_step = 0;      // [s], from which a pair's skin follows its motion
+  double time_step = 0;  // [s], from which a pair's skin follows its motion
+  double skin_steps = steps_a_skin;
   bool brute_force = false;  // every node of every side, at every step
 };
 

@@ -10,9 +10,6 @@
 namespace scree {
 namespace {
 
-// A longer skin makes rebuilds rarer and lists longer; listed nodes cost little before they are due. Measured (200
-// grains, 4,000 nodes, flowing): queries a step 18.8, 14.8, 13.7, 13.8 thousand at 12, 30, 60, 120.
-double constexpr steps_a_skin = 40;
 // Bounds of a skin in node spacings: below, the list would hold too little to survive round-off of the motion bound;
 // above, it holds most of a shape.
 double constexpr least_skin = 1.0 / 16, most_skin = 4;
@@ -75,7 +72,7 @@ struct MarkStale {
     if (!stale[s]) return;
     ShapeRecord const& shape = scene.shape_record(side[s].carrier);
     double const d = scene.diameter[side[s].carrier];
-    double const wanted = steps_a_skin * options.time_step * motion_rate(state, kinematics, moving, radius);
+    double const wanted = options.skin_steps * options.time_step * motion_rate(state, kinematics, moving, radius);
     double const least = least_skin * shape.node_spacing * d, most = most_skin * shape.node_spacing * d;
     skin[s] = wanted < least ? least : (wanted > most ? most : wanted);
     travelled[s] = 0;

@@ -43,4 +43,28 @@ void HeapMeter::tell(CostOptions const& options, CostRow& row) const {
   }
 }
 
+std::vector<SkinRow> measure_skins(CostOptions const& options, int nodes, Frame const& frame) {
+  std::vector<HeapMeter> heap;
+  std::vector<SkinRow> rows;
+  for (double factor : {0.125, 0.25, 0.5, 1.0, 2.0, 4.0, 8.0}) {
+    SimulationOptions simulation;
+    rows.emplace_back().steps = factor * steps_a_skin;
+    simulation.skin_steps = rows.back().steps;
+    Case const c = cost_case(options, cost_subjects(options).back(), nodes);
+    heap.emplace_back(std::make_unique<Simulation>(c, simulation, frame), options);
+  }
+  for (int round = 0; round < options.rounds; ++round)
+    for (HeapMeter& h : heap) h.measure(options.round_steps);
+  for (std::size_t i = 0; i < heap.size(); ++i) {
+    auto const fill = [&](SteppedScene const& s, double& us, double& queries, double& rebuilt) {
+      us = heap[i].particle_step_us(s, options.round_steps);
+      queries = static_cast<double>(s.counts.queries()) / options.round_steps;
+      rebuilt = static_cast<double>(s.counts.rebuilt) / options.round_steps;
+    };
+    fill(heap[i].rest, rows[i].rest_us, rows[i].rest_queries, rows[i].rest_rebuilt);
+    fill(heap[i].flow, rows[i].flow_us, rows[i].flow_queries, rows[i].flow_rebuilt);
+  }
+  return rows;
+}
+
 }  // namespace scree

@@ -87,6 +87,15 @@ class HeapMeter {
   void tell(CostOptions const& options, CostRow& row) const;
 };
 
+// The heap of the last subject under another skin of its node lists: less or more steps of motion before a rebuild.
+struct SkinRow {
+  double steps = 0;
+  double rest_us = 0, flow_us = 0;            // a particle-step [us]
+  double rest_queries = 0, flow_queries = 0;  // a step
+  double rest_rebuilt = 0, flow_rebuilt = 0;  // lists made anew, a step
+};
+std::vector<SkinRow> measure_skins(CostOptions const& options, int nodes, Frame const& frame);
+
 // What an effect adds to the step: the heap of the last subject with it.
 struct EffectRow {
   std::string effect;  // in the words of the case file; the first: none

@@ -81,4 +81,12 @@ std::string effect_csv(std::vector<EffectRow> const& rows) {
   return text;
 }
 
+std::string skin_csv(std::vector<SkinRow> const& rows) {
+  std::string text = "skin_steps,rest_us,flow_us,rest_queries,flow_queries,rest_rebuilt,flow_rebuilt\n";
+  for (SkinRow const& r : rows)
+    text += fmt::format("{:g},{:.4g},{:.4g},{:.5g},{:.5g},{:.4g},{:.4g}\n", r.steps, r.rest_us, r.flow_us,
+                        r.rest_queries, r.flow_queries, r.rest_rebuilt, r.flow_rebuilt);
+  return text;
+}
+
 }  // namespace scree

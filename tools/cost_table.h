@@ -19,6 +19,7 @@ std::string query_csv(std::vector<QueryRow> const& rows);
 std::string collision_csv(std::vector<CollisionRow> const& rows);
 std::string cost_csv(std::vector<CostRow> const& rows);
 std::string effect_csv(std::vector<EffectRow> const& rows);  // ratios: to the first row
+std::string skin_csv(std::vector<SkinRow> const& rows);
 
 // Markdown: what is on the front of error against time at rest, by error, and the rows of the last subject.
 std::string price_list(std::vector<CostRow> const& rows, std::vector<QueryRow> const& queries);

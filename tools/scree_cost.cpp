@@ -157,9 +157,11 @@ int cost_command(CostArguments const& a) {
   }
   compare_forces(o, frame, pairs, offers);
 
+  int const usual = o.nodes[std::min<std::size_t>(1, o.nodes.size() - 1)];
   progress("effects");
-  std::vector<EffectRow> const effects =
-      measure_effects(o, o.nodes[std::min<std::size_t>(1, o.nodes.size() - 1)], frame);
+  std::vector<EffectRow> const effects = measure_effects(o, usual, frame);
+  progress("skins");
+  std::vector<SkinRow> const skins = measure_skins(o, usual, frame);
 
   std::vector<CostRow> rows;
   for (Offer const& offer : offers) rows.push_back(offer.row);
@@ -168,8 +170,10 @@ int cost_command(CostArguments const& a) {
   replace_whole_file(a.output / "queries.csv", query_csv(queries));
   replace_whole_file(a.output / "collisions.csv", collision_csv(collisions));
   replace_whole_file(a.output / "effects.csv", effect_csv(effects));
+  replace_whole_file(a.output / "skins.csv", skin_csv(skins));
   replace_whole_file(a.output / "cost.md", list);
-  fmt::print("\n{}\n{}: cost.md, cost.csv, queries.csv, collisions.csv, effects.csv\n", list, a.output.string());
+  fmt::print("\n{}\n{}: cost.md, cost.csv, queries.csv, collisions.csv, effects.csv, skins.csv\n", list,
+             a.output.string());
   std::string const trouble = run_plot_script(plot_cost_text, {a.output.string()});
   if (trouble.empty())
     fmt::print("picture: {}, .svg\n", (a.output / "cost.png").string());

@@ -79,6 +79,23 @@ TEST(NodePhysics, ThreadsDoNotChangeTheBits) {
   EXPECT_LT(std::abs(one.ledger().residual), 1e-3 * one.ledger().moved);
 }
 
+// A skin decides how often lists are made anew and how long they are, and nothing else.
+TEST(NodePhysics, SkinsDoNotChangeTheBits) {
+  Case const c = heap();
+  Simulation thin(c, {.skin_steps = 2}), usual(c, {}), thick(c, {.skin_steps = 400});
+  for (Simulation* s : {&thin, &usual, &thick})
+    while (s->step() == RunState::running) {
+    }
+  for (Simulation* s : {&thin, &thick}) {
+    EXPECT_EQ(s->frame().position, usual.frame().position);
+    EXPECT_EQ(s->frame().orientation, usual.frame().orientation);
+    EXPECT_EQ(s->frame().velocity, usual.frame().velocity);
+  }
+  auto const rebuilt = [](Simulation& s) { return s.impl().work.gather.lists.rebuilt; };
+  EXPECT_GT(rebuilt(thin), 2 * rebuilt(usual));
+  EXPECT_LT(rebuilt(thick), rebuilt(usual));
+}
+
 TEST(NodePhysics, ARunStartsFromAnyFrame) {
   Case const c = heap();
   Simulation whole(c, {});
