@@ -13,6 +13,8 @@ namespace scree {
 namespace {
 
 double constexpr network_reach = 1.1;  // of the bounding radius: so far a network may be asked
+// Most walks end within it; more would let those of a tile wait for its slowest.
+int constexpr steps_a_launch = 16;
 
 }  // namespace
 
@@ -67,44 +69,105 @@ Vec3 GrainPhi::in_body_frame(int body, Vec3 world) const {
   return transposed_times(rotation_[body], world - frame_.position[body]) / header_.diameter[body];
 }
 
+template <class BodyOf>
+GrainPhi::Order GrainPhi::order_of(std::size_t n, BodyOf const& body_of) const {
+  Order order{std::vector<int>(shape_at_.size() + 1, 0), std::vector<int>(n)};
+  auto const place = [&](std::size_t i) { return place_of_[header_.shape[body_of(i)]]; };
+  for (std::size_t i = 0; i < n; ++i) ++order.first[place(i) + 1];
+  std::partial_sum(order.first.begin(), order.first.end(), order.first.begin());
+  std::vector<int> next(order.first.begin(), order.first.end() - 1);
+  for (std::size_t i = 0; i < n; ++i) order.item[next[place(i)]++] = static_cast<int>(i);
+  return order;
+}
+
+std::vector<int> GrainPhi::network_groups(Order const& order) const {
+  std::vector<int> group;
+  for (std::size_t k = 0; k + 1 < first_place_.size(); ++k) group.push_back(order.first[first_place_[k]]);
+  return group;
+}
+
+void GrainPhi::ask_networks(Order const& order, QueryBatch& batch, bool with_gradient) const {
+  std::vector<int> group = network_groups(order);
+  if (group.back() == 0) return;
+  group.resize(query_groups(static_cast<int>(networks_.net.size())) + 1, group.back());  // no other kinds
+  batch.group = std::move(group);
+  std::unique_lock<std::mutex> turn(device_turn_, std::defer_lock);
+  if (networks_.device) turn.lock();
+  auto const ask = with_gradient ? evaluate_phi_gradient : evaluate_phi;
+  ask({}, view(), networks_, batch);
+}
+
+void GrainPhi::ask_others(Order const& order, QueryBatch& batch, bool with_gradient) const {
+  auto const none = Span<Vec3>();
+  for (std::size_t k = first_place_[networks_.net.size()]; k < shape_at_.size(); ++k) {
+    int const at = order.first[k], count = order.first[k + 1] - at;
+    if (count == 0) continue;
+    other_phi_[shape_at_[k]]({batch.point.data() + at, count}, {batch.phi.data() + at, count},
+                             with_gradient ? Span<Vec3>(batch.gradient.data() + at, count) : none);
+  }
+}
+
 void GrainPhi::evaluate(std::vector<BodyPoint> const& queries, std::vector<double>& phi,
                         std::vector<Vec3>* gradient) const {
   std::size_t const n = queries.size();
   phi.resize(n);
-  if (gradient) gradient->resize(n);
-  // Counting sort by shape, so that neighbours in a network's batch share a code.
-  std::vector<int> first(shape_at_.size() + 1, 0), order(n);
-  for (BodyPoint const& q : queries) ++first[place_of_[header_.shape[q.body]] + 1];
-  std::partial_sum(first.begin(), first.end(), first.begin());
-  std::vector<int> next(first.begin(), first.end() - 1);
+  Order const order = order_of(n, [&](std::size_t i) { return queries[i].body; });
   QueryBatch batch;
   batch.resize(static_cast<int>(n));
-  for (std::size_t i = 0; i < n; ++i) {
-    int const to = next[place_of_[header_.shape[queries[i].body]]]++;
-    order[to] = static_cast<int>(i);
-    batch.partner[to] = queries[i].body;
-    batch.point[to] = in_body_frame(queries[i].body, queries[i].point);
-  }
-  int const nets = static_cast<int>(networks_.net.size()), of_networks = first[first_place_[nets]];
-  batch.group.assign(query_groups(nets) + 1, of_networks);
-  for (int k = 0; k < nets; ++k) batch.group[k] = first[first_place_[k]];
-  if (gradient) batch.gradient.resize(n);
-  if (of_networks > 0) {
-    std::unique_lock<std::mutex> turn(device_turn_, std::defer_lock);
-    if (networks_.device) turn.lock();
-    auto const ask = gradient ? evaluate_phi_gradient : evaluate_phi;
-    ask({}, view(), networks_, batch);
-  }
-  for (std::size_t k = static_cast<std::size_t>(first_place_[nets]); k < shape_at_.size(); ++k) {
-    int const at = first[k], count = first[k + 1] - at;
-    if (count == 0) continue;
-    other_phi_[shape_at_[k]]({batch.point.data() + at, count}, {batch.phi.data() + at, count},
-                             gradient ? Span<Vec3>(batch.gradient.data() + at, count) : Span<Vec3>());
-  }
+  if (gradient) gradient->resize(n), batch.gradient.resize(n);
   for (std::size_t k = 0; k < n; ++k) {
-    int const body = batch.partner[k];
-    phi[order[k]] = batch.phi[k] * header_.diameter[body];
-    if (gradient) (*gradient)[order[k]] = rotation_[body] * batch.gradient[k];
+    BodyPoint const& q = queries[order.item[k]];
+    batch.partner[k] = q.body;
+    batch.point[k] = in_body_frame(q.body, q.point);
+  }
+  ask_networks(order, batch, gradient != nullptr);
+  ask_others(order, batch, gradient != nullptr);
+  for (std::size_t k = 0; k < n; ++k) {
+    int const body = batch.partner[k], to = order.item[k];
+    phi[to] = batch.phi[k] * header_.diameter[body];
+    if (gradient) (*gradient)[to] = rotation_[body] * batch.gradient[k];
+  }
+}
+
+void GrainPhi::step(std::vector<BallWalk>& walks) const {
+  std::size_t const n = walks.size();
+  Order const order = order_of(n, [&](std::size_t i) { return walks[i].body; });
+  QueryBatch batch;
+  batch.resize(static_cast<int>(n));
+  for (std::size_t k = 0; k < n; ++k) {
+    BallWalk const& w = walks[order.item[k]];
+    batch.partner[k] = w.body;
+    batch.point[k] = w.origin + w.direction * w.at;
+  }
+  if (on_device())
+    walk_on_device(order, walks);
+  else
+    ask_networks(order, batch, false);
+  ask_others(order, batch, false);
+  for (std::size_t k = on_device() ? network_groups(order).back() : 0; k < n; ++k) {
+    BallWalk& w = walks[order.item[k]];
+    walk_on(batch.phi[k], lipschitz(w.body), w.end, w.at, w.step);
+  }
+}
+
+void GrainPhi::walk_on_device(Order const& order, std::vector<BallWalk>& walks) const {
+  WalkBatch batch;
+  batch.group = network_groups(order);
+  for (int k = 0; k < batch.group.back(); ++k) {
+    BallWalk const& w = walks[order.item[k]];
+    batch.origin.push_back(w.origin);
+    batch.direction.push_back(w.direction);
+    batch.end.push_back(w.end);
+    batch.body.push_back(w.body);
+    batch.at.push_back(w.at);
+    batch.step.push_back(w.step);
+  }
+  std::lock_guard<std::mutex> const turn(device_turn_);
+  networks_.device->walk({}, batch, steps_a_launch);
+  for (int k = 0; k < batch.group.back(); ++k) {
+    BallWalk& w = walks[order.item[k]];
+    w.at = batch.at[k];
+    w.step = batch.step[k];
   }
 }
 

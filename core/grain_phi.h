@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/results.h"
+#include "kernels/ball_walk.h"
 #include "kernels/sdf_queries.h"
 #include "shapes/phi_batch.h"
 
@@ -16,6 +17,14 @@ namespace scree {
 struct BodyPoint {
   int body;
   Vec3 point;  // world [m]
+};
+
+// The way of a ray through the ball of one body, see kernels/ball_walk.h: lengths in d, body frame.
+struct BallWalk {
+  int body = -1;
+  Vec3 origin, direction;
+  double at = 0, end = 0;
+  int step = 0;  // steps made, walk_hit or walk_left
 };
 
 // Networks are asked as the simulation does, one batch for all the shapes of a decoder; other kinds shape by shape
@@ -31,13 +40,28 @@ class GrainPhi {
   // many threads at once: a device takes their batches one after the other. Throws DeviceError.
   void evaluate(std::vector<BodyPoint> const& queries, std::vector<double>& phi, std::vector<Vec3>* gradient) const;
 
+  // Walks that have not ended go on by one step; on a device those of networks by up to 16 at once.
+  void step(std::vector<BallWalk>& walks) const;
+
   bool on_device() const { return networks_.device != nullptr; }  // some grains are networks, a device evaluates them
   double lipschitz(int body) const { return lipschitz_[header_.shape[body]]; }  // of phi outside the solid
   Vec3 in_body_frame(int body, Vec3 world) const;                               // [d]
+  Vec3 turned_to_body(int body, Vec3 direction) const { return transposed_times(rotation_[body], direction); }
 
  private:
   void place_networks(std::shared_ptr<NetworkDevice> device);
   SceneView view() const;
+  // Counting sort by shape, so that neighbours in a network's batch share a code: first item of each place, then the
+  // end; the item at each position.
+  struct Order {
+    std::vector<int> first, item;
+  };
+  template <class BodyOf>
+  Order order_of(std::size_t n, BodyOf const& body_of) const;
+  std::vector<int> network_groups(Order const& order) const;  // first item of each network, then the end
+  void ask_networks(Order const& order, QueryBatch& batch, bool with_gradient) const;
+  void ask_others(Order const& order, QueryBatch& batch, bool with_gradient) const;
+  void walk_on_device(Order const& order, std::vector<BallWalk>& walks) const;
 
   ResultsHeader const& header_;
   Frame const& frame_;

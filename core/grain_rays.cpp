@@ -12,8 +12,6 @@ namespace {
 
 double constexpr ball_margin = 1.01;  // of the bounding radius; networks may be evaluated up to 1.1
 int constexpr leaf_size = 4;
-int constexpr max_steps = 96;           // a ray this long along a surface has found it for the eye
-double constexpr hit_tolerance = 1e-4;  // [d], half a pixel of a grain 5,000 pixels wide
 
 Box around(Vec3 centre, double radius) {
   Vec3 const r{radius, radius, radius};
@@ -121,53 +119,49 @@ void GrainRays::near(Vec3 point, double reach, std::vector<int>& found) const {
 }
 
 void GrainRays::trace(std::vector<Ray> const& rays, std::vector<RayHit>& hits, bool any) const {
-  struct Walk {
+  struct Course {
     int ray, next, end;  // the visits still to make
-    double at, leave;    // within the present ball
-    int body = -1, step = 0;
   };
   hits.assign(rays.size(), {});
   std::vector<Visit> visits;
-  std::vector<Walk> walks;
-  // The next ball, unless what is found already lies in front of it.
-  auto const advance = [&](Walk& w) {
-    if (w.next == w.end) return false;
-    RayHit const& hit = hits[w.ray];
-    Visit const& v = visits[w.next++];
+  std::vector<Course> courses;
+  std::vector<BallWalk> walks;  // of each course, through its present ball
+  // Into the next ball, unless what is found already lies in front of it.
+  auto const enter_next = [&](Course& c, BallWalk& walk) {
+    if (c.next == c.end) return false;
+    RayHit const& hit = hits[c.ray];
+    Visit const& v = visits[c.next++];
     if (hit.body >= 0 && (any || v.enter > hit.distance)) return false;
-    w.at = v.enter;
-    w.leave = std::min(v.leave, hit.body >= 0 ? hit.distance : rays[w.ray].limit);
-    w.body = balls_[v.ball].body;
-    w.step = 0;
+    int const body = balls_[v.ball].body;
+    double const d = header_.diameter[body], end = hit.body >= 0 ? hit.distance : rays[c.ray].limit;
+    walk = {body,
+            phi_.in_body_frame(body, rays[c.ray].origin),
+            phi_.turned_to_body(body, rays[c.ray].direction),
+            v.enter / d,
+            std::min(v.leave, end) / d,
+            0};
     return true;
   };
   for (int r = 0; r < static_cast<int>(rays.size()); ++r) {
     int const begin = static_cast<int>(visits.size());
     collect(rays[r], visits);
     std::sort(visits.begin() + begin, visits.end(), [](Visit const& a, Visit const& b) { return a.enter < b.enter; });
-    Walk w{r, begin, static_cast<int>(visits.size()), 0, 0};
-    if (advance(w)) walks.push_back(w);
+    Course c{r, begin, static_cast<int>(visits.size())};
+    BallWalk walk;
+    if (enter_next(c, walk)) courses.push_back(c), walks.push_back(walk);
   }
-  std::vector<BodyPoint> queries;
-  std::vector<double> phi;
   while (!walks.empty()) {
-    queries.clear();
-    for (Walk const& w : walks) queries.push_back({w.body, rays[w.ray].origin + rays[w.ray].direction * w.at});
-    phi_.evaluate(queries, phi, nullptr);
+    phi_.step(walks);
     std::size_t kept = 0;
     for (std::size_t i = 0; i < walks.size(); ++i) {
-      Walk w = walks[i];
-      double const d = header_.diameter[w.body];
-      bool goes_on = true;
-      if (phi[i] > -hit_tolerance * d || ++w.step == max_steps) {
-        hits[w.ray] = {w.body, w.at};
-        goes_on = advance(w);
-      } else {
-        w.at += -phi[i] / phi_.lipschitz(w.body);
-        if (w.at > w.leave) goes_on = advance(w);
-      }
-      if (goes_on) walks[kept++] = w;
+      Course c = courses[i];
+      BallWalk walk = walks[i];
+      if (walk.step == walk_hit) hits[c.ray] = {walk.body, walk.at * header_.diameter[walk.body]};
+      if (walk.step < 0 && !enter_next(c, walk)) continue;
+      courses[kept] = c;
+      walks[kept++] = walk;
     }
+    courses.resize(kept);
     walks.resize(kept);
   }
 }

@@ -28,7 +28,7 @@ class GrainRays {
   // `device` is for.
   GrainRays(ResultsHeader const& header, Frame const& frame, std::shared_ptr<NetworkDevice> device = nullptr);
 
-  // First grain along each ray, to 1e-4 of its diameter. `any`: the first one found will do (shadows).
+  // First grain along each ray, to walk_tolerance of its diameter. `any`: the first one found will do (shadows).
   // Thread-safe, as are the others; a ray's result does not depend on the batch.
   void trace(std::vector<Ray> const& rays, std::vector<RayHit>& hits, bool any = false) const;
 

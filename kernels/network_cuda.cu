@@ -1,4 +1,4 @@
-// network_cuda.cu: the fused network kernel on a CUDA device, and the batches of the hybrid mode.
+// network_cuda.cu: the fused network kernel on a CUDA device, and the batches of the hybrid mode; walks of rays.
 // SPDX-License-Identifier: Apache-2.0
 #include <cuda_runtime.h>
 
@@ -11,6 +11,7 @@
 #include "kernels/base/profile.h"
 #include "kernels/network_device.h"
 #include "kernels/sdf/network_image.h"
+#include "kernels/walk_tile.h"
 
 namespace scree {
 namespace {
@@ -75,6 +76,20 @@ __global__ void __launch_bounds__(lanes)
     FusedTile<ThreadBlock, Act, W>(block, networks, queries, tiles[t], weight, column, ints).run(column_lanes);
 }
 
+// At most `most` steps of the walks of each tile.
+template <template <class> class Act, int W>
+__global__ void __launch_bounds__(lanes)
+    walk_kernel(__grid_constant__ const Networks networks, __grid_constant__ const Queries queries,
+                __grid_constant__ const Walks walks, Span<const Tile> tiles, int floats, int most) {
+  extern __shared__ float4 store[];
+  float* const weight = reinterpret_cast<float*>(store);
+  float* const column = weight + W * W + W;
+  int* const ints = reinterpret_cast<int*>(column + floats);
+  ThreadBlock const block;
+  for (int t = static_cast<int>(blockIdx.x); t < tiles.size(); t += static_cast<int>(gridDim.x))
+    WalkTile<ThreadBlock, Act, W>(block, networks, queries, walks, tiles[t], weight, column, ints).run(most);
+}
+
 struct ClassOnDevice {
   CudaBuffer<NetworkRecord> net;
   CudaBuffer<float> weight, bias;
@@ -109,6 +124,7 @@ class CudaNetworks : public NetworkDevice {
       classes_[c].bias.upload(from.bias, stream_);
     }
     frame_.upload(image_.frame, stream_);
+    lipschitz_.upload(image_.lipschitz, stream_);
     shape_of_.upload(image_.shape_of, stream_);
     diameter_.upload(image_.diameter, stream_);
     check_cuda(cudaStreamSynchronize(stream_), "loading networks");
@@ -139,6 +155,34 @@ class CudaNetworks : public NetworkDevice {
     check_cuda(cudaStreamSynchronize(stream_), "sdf_net/device");
   }
 
+  void walk(Queue const& queue, WalkBatch& batch, int most) override {
+    int const n = batch.group[image_.class_of.size()];
+    if (n == 0) return;
+    ScopedTimer const timer(queue.profile, "sdf_net/walk", n);
+    origin_.upload(Span<const Vec3>(batch.origin).subspan(0, n), stream_);
+    direction_.upload(Span<const Vec3>(batch.direction).subspan(0, n), stream_);
+    end_.upload(Span<const double>(batch.end).subspan(0, n), stream_);
+    partner_.upload(Span<const int>(batch.body).subspan(0, n), stream_);
+    at_.upload(Span<const double>(batch.at).subspan(0, n), stream_);
+    step_.upload(Span<const int>(batch.step).subspan(0, n), stream_);
+    point_.resize(n);
+    phi_.resize(n);
+    Queries const queries{frame_.span(), shape_of_.span(), diameter_.span(),    image_.cohesion_reach, 0,
+                          point_.span(), partner_.span(),  phi_.mutable_span(), Span<Vec3>()};
+    Walks const walks{lipschitz_.span(),  origin_.span(),       direction_.span(),    end_.span(),
+                      at_.mutable_span(), step_.mutable_span(), point_.mutable_span()};
+    auto const tiles = tiles_of(image_, batch.group);
+    for (std::size_t c = 0; c < tiles.size(); ++c) classes_[c].tiles.upload(tiles[c], stream_);
+    check_cuda(cudaEventRecord(before_, stream_), "sdf_net/walk");
+    for (std::size_t c = 0; c < tiles.size(); ++c)
+      if (!tiles[c].empty())
+        dispatch<LaunchWalks>(image_.classes[c], *this, image_.classes[c], classes_[c], queries, walks, most);
+    check_cuda(cudaEventRecord(after_, stream_), "sdf_net/walk");
+    at_.download(Span<double>(batch.at).subspan(0, n), stream_);
+    step_.download(Span<int>(batch.step).subspan(0, n), stream_);
+    check_cuda(cudaStreamSynchronize(stream_), "sdf_net/walk");
+  }
+
   double kernel_seconds() const override {
     float milliseconds = 0;
     check_cuda(cudaEventElapsedTime(&milliseconds, before_, after_), "reading the device's clock");
@@ -146,24 +190,39 @@ class CudaNetworks : public NetworkDevice {
   }
 
  private:
+  // A class's tiles, as many blocks as the device holds at once. `arguments`: of the kernel behind the networks.
+  template <class Kernel, class... Arguments>
+  void launch(char const* what, Kernel kernel, int w, int floats, ClassOnDevice const& data,
+              Arguments const&... arguments) const {
+    std::size_t const bytes = sizeof(float) * (weight_floats(w) + floats) + sizeof(int) * shared_ints;
+    if (bytes > device_.shared_memory)
+      throw DeviceError("the network kernel needs " + std::to_string(bytes) + " bytes of shared memory a block; " +
+                        device_.name + " has " + std::to_string(device_.shared_memory));
+    check_cuda(cudaFuncSetAttribute(kernel, cudaFuncAttributeMaxDynamicSharedMemorySize, static_cast<int>(bytes)),
+               std::string(what) + ": this build holds no code for the device's chip");
+    int blocks = 0;
+    check_cuda(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&blocks, kernel, lanes, bytes), "occupancy");
+    int const grid = std::min(data.tiles.size(), std::max(1, blocks) * device_.multiprocessors);
+    kernel<<<grid, lanes, bytes, stream_>>>(Networks{data.net.span(), data.weight.data(), data.bias.data()},
+                                            arguments...);
+    check_cuda(cudaGetLastError(), std::string(what) + ": launch");
+  }
   struct Launch {
     template <template <class> class Act, int W>
     static void run(CudaNetworks const& self, NetworkClass const& of, ClassOnDevice const& data,
                     Queries const& queries) {
       int const floats = column_floats(W, of.hidden, !queries.gradient.empty());
-      std::size_t const bytes = sizeof(float) * (weight_floats(W) + floats) + sizeof(int) * shared_ints;
-      auto const kernel = fused_kernel<Act, W>;
-      if (bytes > self.device_.shared_memory)
-        throw DeviceError("the network kernel needs " + std::to_string(bytes) + " bytes of shared memory a block; " +
-                          self.device_.name + " has " + std::to_string(self.device_.shared_memory));
-      check_cuda(cudaFuncSetAttribute(kernel, cudaFuncAttributeMaxDynamicSharedMemorySize, static_cast<int>(bytes)),
-                 "sdf_net/device: this build holds no code for the device's chip");
-      int blocks = 0;
-      check_cuda(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&blocks, kernel, lanes, bytes), "occupancy");
-      int const grid = std::min(data.tiles.size(), std::max(1, blocks) * self.device_.multiprocessors);
-      kernel<<<grid, lanes, bytes, self.stream_>>>(Networks{data.net.span(), data.weight.data(), data.bias.data()},
-                                                   queries, data.tiles.span(), floats, gradient_lanes);
-      check_cuda(cudaGetLastError(), "sdf_net/device: launch");
+      self.launch("sdf_net/device", fused_kernel<Act, W>, W, floats, data, queries, data.tiles.span(), floats,
+                  gradient_lanes);
+    }
+  };
+  struct LaunchWalks {
+    template <template <class> class Act, int W>
+    static void run(CudaNetworks const& self, NetworkClass const& of, ClassOnDevice const& data, Queries const& queries,
+                    Walks const& walks, int most) {
+      int const floats = column_floats(W, of.hidden, false);
+      self.launch("sdf_net/walk", walk_kernel<Act, W>, W, floats, data, queries, walks, data.tiles.span(), floats,
+                  most);
     }
   };
 
@@ -173,9 +232,9 @@ class CudaNetworks : public NetworkDevice {
   NetworkImage image_;
   std::vector<ClassOnDevice> classes_;
   CudaBuffer<NetworkFrame> frame_;
-  CudaBuffer<int> shape_of_, partner_;
-  CudaBuffer<double> diameter_, phi_;
-  CudaBuffer<Vec3> point_, gradient_;
+  CudaBuffer<int> shape_of_, partner_, step_;
+  CudaBuffer<double> diameter_, lipschitz_, phi_, end_, at_;
+  CudaBuffer<Vec3> point_, gradient_, origin_, direction_;
 };
 
 }  // namespace

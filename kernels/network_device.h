@@ -13,6 +13,7 @@ namespace scree {
 struct NetworkSet;
 struct QueryBatch;
 struct SceneView;
+struct WalkBatch;
 
 class NetworkDevice {
  public:
@@ -32,7 +33,11 @@ class NetworkDevice {
   // the CPU where its instruction set has a fused multiply-add. Throws DeviceError.
   virtual void evaluate(Queue const& queue, QueryBatch& batch, double gradient_from) = 0;
 
-  // Time of the kernels of the last evaluate by the device's own clock, without the copies [s]; for benchmarks.
+  // One launch: `most` steps of each walk, walks.group[0] .. walks.group[networks), or fewer where it hits or leaves
+  // (see ball_walk.h). Same bits as steps one by one with phi from evaluate. Throws DeviceError.
+  virtual void walk(Queue const& queue, WalkBatch& walks, int most) = 0;
+
+  // Time of the kernels of the last evaluate or walk by the device's own clock, without the copies [s]; for benchmarks.
   virtual double kernel_seconds() const = 0;
 };
 

@@ -86,7 +86,10 @@ NetworkImage make_network_image(SceneView const& scene, NetworkSet const& networ
     image.index_in_class.push_back(static_cast<int>(at->net.size()));
     at->net.push_back(append(networks.net[i], networks.bias_rows[i], *at));
   }
-  for (ShapeRecord const& shape : scene.shape) image.frame.push_back(network_frame(shape));
+  for (ShapeRecord const& shape : scene.shape) {
+    image.frame.push_back(network_frame(shape));
+    image.lipschitz.push_back(shape.lipschitz);
+  }
   image.shape_of.assign(scene.shape_of.begin(), scene.shape_of.end());
   image.diameter.assign(scene.diameter.begin(), scene.diameter.end());
   image.cohesion_reach = scene.cohesion_reach;

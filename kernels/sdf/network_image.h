@@ -24,6 +24,7 @@ struct NetworkImage {
   std::vector<NetworkFrame> frame;            // of each shape
   std::vector<int> shape_of;                  // (n_solids)
   std::vector<double> diameter;               // [m] (n_solids)
+  std::vector<double> lipschitz;              // of each shape
   double cohesion_reach = 0;                  // [m]
 };
 

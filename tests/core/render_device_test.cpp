@@ -179,6 +179,10 @@ struct LostDevice : NetworkDevice {
     ++batches;
     throw DeviceError("lost");
   }
+  void walk(Queue const&, WalkBatch&, int) override {
+    ++batches;
+    throw DeviceError("lost");
+  }
   double kernel_seconds() const override { return 0; }
 };
 

@@ -5,10 +5,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
 
+#include "kernels/ball_walk.h"
 #include "kernels/base/device.h"
 #include "kernels/sdf/mlp_fused.h"
 #include "kernels/sdf_queries.h"
@@ -186,6 +188,51 @@ TEST_P(NetworkDeviceTest, MakesGradientsOnlyWhereTheyAreWanted) {
       EXPECT_GT(made, 100);
     }
   }
+}
+
+// Steps along rays: those of a launch are those made one by one with the host's phi; what is over stays as it is.
+TEST_P(NetworkDeviceTest, WalksAsTheHostDoesStepByStep) {
+  if (!host_fuses()) GTEST_SKIP() << "this CPU has no fused multiply-add: equal to float rounding only";
+  Bodies bodies;
+  bodies.add(random_mlp(Activation::sine, 5, {13, 40, 40, 40, 1}, 1), 3);
+  bodies.add(random_mlp(Activation::leaky_relu, 0.01, {3, 30, 30, 1}, 2), 1);
+  bodies.add(random_mlp(Activation::softplus, 20, {5, 24, 1}, 5), 2);
+  for (std::size_t s = 0; s < bodies.shape.size(); ++s) bodies.shape[s].lipschitz = 2 + 0.3 * s;
+  QueryBatch ask = bodies.queries(90);  // more than a tile of some networks, less of others
+  int const n = static_cast<int>(ask.point.size());
+  auto const aim = test::random_points(n, 0.3, 8);
+  WalkBatch device;
+  for (int i = 0; i < n; ++i) {
+    device.origin.push_back(ask.point[i]);
+    device.direction.push_back(normalized(to_double(aim[i]) - ask.point[i]));
+    device.end.push_back(0.3 * (i % 4));
+  }
+  device.body = ask.partner;
+  device.group = ask.group;
+  device.at.assign(n, 0);
+  device.step.assign(n, 0);
+  WalkBatch host = device;
+  device_->load(bodies.view(), bodies.networks);
+  for (int most : {0, 1, 7, walk_steps}) {
+    device_->walk({}, device, most);
+    for (int k = 0; k < most; ++k) {
+      for (int i = 0; i < n; ++i) ask.point[i] = host.origin[i] + host.direction[i] * host.at[i];
+      evaluate_phi({}, bodies.view(), bodies.networks, ask);
+      for (int i = 0; i < n; ++i)
+        if (host.step[i] >= 0)
+          walk_on(ask.phi[i], bodies.shape[bodies.shape_of[host.body[i]]].lipschitz, host.end[i], host.at[i],
+                  host.step[i]);
+    }
+    ASSERT_EQ(device.step, host.step) << "after " << most << " more";
+    ASSERT_EQ(device.at, host.at) << "after " << most << " more";
+  }
+  auto const count = [&](int step) { return std::count(device.step.begin(), device.step.end(), step); };
+  EXPECT_GT(count(walk_hit), n / 10);
+  EXPECT_GT(count(walk_left), n / 10);
+  EXPECT_EQ(count(walk_hit) + count(walk_left), n) << "walk_steps is the most any takes";
+  WalkBatch none;
+  none.group.assign(bodies.networks.net.size() + 1, 0);
+  device_->walk({}, none, 5);
 }
 
 // A mark moves a point to the pass with gradients and changes no bits; on a device phi decides, whatever was marked.
