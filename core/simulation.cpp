@@ -177,6 +177,7 @@ void Simulation::Impl::check_leaving() {
 
 // Two bodies must not pass through each other between two steps.
 void Simulation::Impl::check_travel() {
+  if (!pairs_may_travel_far(scene, state)) return;
   PairTravel const travel = largest_pair_travel(scene, state, work.pair);
   if (!(travel.share > largest_travel)) return;
   std::string const pair = describe_pair(scene, c, work.pair[travel.pair]);

@@ -24,14 +24,22 @@ double surface_speed(Scene const& scene, State const& state, int body) {
   return norm(state.velocity[body]) + turning_speed(scene, state, body);
 }
 
+bool pairs_may_travel_far(Scene const& scene, State const& state) {
+  double fastest = 0;
+  for (int i = 0; i < scene.solids(); ++i) fastest = std::max(fastest, surface_speed(scene, state, i));
+  double constexpr margin = 1 + 1e-9;  // of rounding: the sum over a pair is not this bound's
+  return 2 * fastest * state.time_step * margin > largest_travel * least_half_thickness(scene);
+}
+
 PairTravel largest_pair_travel(Scene const& scene, State const& state, std::vector<Pair> const& pair) {
   PairTravel out;
+  std::vector<double> turning(scene.solids());  // a body has many pairs
+  for (int i = 0; i < scene.solids(); ++i) turning[i] = turning_speed(scene, state, i);
   for (std::size_t k = 0; k < pair.size(); ++k) {
     Pair const p = pair[k];
     if (p.with_plane()) continue;  // a half space has no far side
     double const thin = std::min(half_thickness_of(scene, p.a), half_thickness_of(scene, p.b));
-    double const speed = norm(state.velocity[p.a] - state.velocity[p.b]) + turning_speed(scene, state, p.a) +
-                         turning_speed(scene, state, p.b);
+    double const speed = norm(state.velocity[p.a] - state.velocity[p.b]) + turning[p.a] + turning[p.b];
     if (speed * state.time_step > out.share * thin)
       out.share = speed * state.time_step / thin, out.pair = static_cast<int>(k);
   }

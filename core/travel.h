@@ -20,6 +20,8 @@ struct PairTravel {
   double share = 0;  // largest approach in a step, in half thicknesses of the thinner body of its pair
   int pair = -1;
 };
+// Whether some pair may approach by more than largest_travel: false is certain, and needs no look at the pairs.
+bool pairs_may_travel_far(Scene const& scene, State const& state);
 PairTravel largest_pair_travel(Scene const& scene, State const& state, std::vector<Pair> const& pair);
 
 // Of the thinnest grain or wall [m]; 1e300: all are without a middle.

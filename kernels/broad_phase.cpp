@@ -19,9 +19,11 @@ SCREE_HD std::uint64_t spread_bits(std::uint64_t v) {  // two zero bits between 
   return (v | v << 2) & 0x1249249249249249;
 }
 
+// Without branches: nobody can foretell which of the six sides parts two boxes.
 SCREE_HD bool overlap(Box const& a, Box const& b) {
-  return a.min.x <= b.max.x && b.min.x <= a.max.x && a.min.y <= b.max.y && b.min.y <= a.max.y && a.min.z <= b.max.z &&
-         b.min.z <= a.max.z;
+  return (static_cast<int>(a.min.x <= b.max.x) & static_cast<int>(b.min.x <= a.max.x) &
+          static_cast<int>(a.min.y <= b.max.y) & static_cast<int>(b.min.y <= a.max.y) &
+          static_cast<int>(a.min.z <= b.max.z) & static_cast<int>(b.min.z <= a.max.z)) != 0;
 }
 
 struct MortonKey {
@@ -72,7 +74,8 @@ struct ParentBox {
   }
 };
 
-// Walks the hierarchy for body `leaf`; counts, or with `pair` fills, the pairs it opens.
+// Walks the hierarchy for the body of leaf `leaf`; counts, or with `pair` fills, the pairs it opens. Leaf by leaf:
+// neighbours walk through the same nodes, which are still in the cache.
 struct PairsOfBody {
   Span<const PlaneRecord> plane;
   Span<const int> world_of;
@@ -84,6 +87,8 @@ struct PairsOfBody {
   Span<int> count;
   Span<const int> first;
   Span<Pair> pair;  // empty: count only
+
+  static int constexpr stride = 3;  // levels a walk takes at once
 
   SCREE_HD void emit(int body, int other, int& n) const {
     if (!pair.empty()) {
@@ -105,7 +110,8 @@ struct PairsOfBody {
     return world_of[order[static_cast<int>(begin)]] <= mine && mine <= world_of[order[last]];
   }
 
-  SCREE_HD void operator()(int body) const {
+  SCREE_HD void operator()(int leaf) const {
+    int const body = order[leaf];
     Box const mine = box[body];
     if (is_empty(mine)) {  // an inactive body opens no pairs, not with walls either, whose boxes may have no end
       if (pair.empty()) count[body] = 0;
@@ -120,20 +126,21 @@ struct PairsOfBody {
     }
     struct Entry {
       int level, index;
-    } stack[64];
+    } stack[80];  // 7 siblings wait at each of 11 levels, the most that 2^31 leaves have with this stride
     int depth = 0;
     stack[depth++] = {level_first.size() - 2, 0};
     while (depth > 0) {
       Entry const e = stack[--depth];
-      if (!may_meet(body, e.level, e.index) || !overlap(mine, node[level_first[e.level] + e.index])) continue;
-      if (e.level == 0) {
-        int const other = order[e.index];
-        if (other > body) emit(body, other, n);
-        continue;
+      // Several levels at once: their nodes lie side by side.
+      int const step = e.level < stride ? e.level : stride, level = e.level - step, first_child = e.index << step;
+      int const width = level_first[level + 1] - level_first[level], last = first_child + (1 << step);
+      for (int child = first_child; child < (last < width ? last : width); ++child) {
+        if (!overlap(mine, node[level_first[level] + child]) || !may_meet(body, level, child)) continue;
+        if (level > 0)
+          stack[depth++] = {level, child};
+        else if (int const other = order[child]; other > body)
+          emit(body, other, n);
       }
-      int const children = level_first[e.level] - level_first[e.level - 1];
-      if (2 * e.index + 1 < children) stack[depth++] = {e.level - 1, 2 * e.index + 1};
-      stack[depth++] = {e.level - 1, 2 * e.index};
     }
     for (int wall = grains; wall < box.size(); ++wall)
       if (overlap(mine, box[wall])) emit(body, wall, n);

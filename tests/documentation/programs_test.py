@@ -15,6 +15,9 @@ ABOUT = {
                    "[training](../../training/README.md).",
     "bench_sdf": "Network queries per second on one core: needs Google Benchmark.",
     "bench_step": "Cost of a whole step, by stage and by number of threads: needs Google Benchmark.",
+    "bench_scaling": "Cost of a grain and step by the number of grains: is built with the other benchmarks.",
+    "bench_broad_phase": "Pairs of overlapping boxes: needs Google Benchmark; CGAL is compared with where it is there.",
+    "bench_training": "Speed of the training: is built with `scree-train`.",
     "bench_memory": "Bytes of a grain: is built with the other benchmarks.",
     "bench_device": "The network kernel on a GPU: built with `SCREE_CUDA=ON` it measures, without it "
                     "`--device emulated` tries the program.",
