@@ -148,7 +148,7 @@ void evaluate_contacts(Queue const& queue, Scene const& scene, Effects const& ef
     update_node_lists(queue, view, now, kinematics, scene.networks, gather, work.gather);
     find_active_nodes(queue, view, now, kinematics, scene.networks, gather, work.gather.lists, work.active);
     reduce_node_contacts(queue, view, now, kinematics, options, work.pair, work.closed_form, work.gather.lists,
-                         work.active, state.node_history, work.next_node_history, rolling, work.result);
+                         work.active, state.node_history, work.next_node_history, work.samples, rolling, work.result);
   }
   if (effects.sphere_contacts)
     sphere_contacts(queue, view, now, kinematics, options, work.pair, work.closed_form, state.sphere_history,

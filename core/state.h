@@ -88,6 +88,7 @@ struct Workspace {
   NodeGather gather;
   ActiveNodes active;
   NodeHistory next_node_history;
+  std::vector<NodeSample> samples;  // (n_active)
   SphereHistory next_sphere_history;
   RollingHistory next_rolling_history;
   std::vector<PairResult> result;

@@ -27,39 +27,51 @@ struct ReducePair {
   Span<const Vec3> gradient;  // partner frame
   Span<const int> history_first, history_count, history_node;
   Span<const Vec3> history_xi;
-  Span<Vec3> next_xi;  // of every active node; empty without friction
+  Span<Vec3> next_xi;        // of every active node; empty without friction
+  Span<NodeSample> samples;  // scratch of every active node
   RollingView rolling;
   Span<PairResult> result;
 
-  // An active node in the world frame.
-  struct Sample {
-    Vec3 x;         // [m]
-    Vec3 gradient;  // of phi with respect to x, [-]
-    double phi;     // [m]
-    double weight;  // s times area [m^2]
+  // One side of a pair, and what its nodes have in common.
+  struct SideFrame {
+    int side = -1;  // of the lists; -1: nothing there is active
     int carrier, partner;
     double sign;  // of the force on a along the gradient: a node of a is pushed against it, a node of b along it
+    double share;
+    double d, partner_unit;  // [m]
+    Vec3 position;           // of the carrier [m]
+    Mat3 rotation;           // of the carrier
+    Mat3 partner_rotation;   // of a body
+    Vec3 plane_gradient;     // of a plane
   };
 
-  SCREE_HD Sample sample(Pair const& p, int which, double share, int i) const {
-    Sample out;
-    out.carrier = which == 0 ? p.a : p.b;
-    out.partner = which == 0 ? p.b : p.a;
-    out.sign = which == 0 ? -1 : 1;
-    ShapeRecord const& shape = scene.shape_record(out.carrier);
-    double const d = scene.diameter[out.carrier];
+  SCREE_HD SideFrame side_frame(Pair const& p, int which, double share, int side) const {
+    SideFrame f;
+    f.side = side;
+    f.carrier = which == 0 ? p.a : p.b;
+    f.partner = which == 0 ? p.b : p.a;
+    f.sign = which == 0 ? -1 : 1;
+    f.share = share;
+    f.d = scene.diameter[f.carrier];
+    f.position = state.position[f.carrier];
+    f.rotation = kinematics.rotation[f.carrier];
+    f.partner_unit = f.partner < 0 ? 1 : scene.diameter[f.partner];
+    if (f.partner < 0)
+      f.plane_gradient = -scene.plane[-1 - f.partner].normal;
+    else
+      f.partner_rotation = kinematics.rotation[f.partner];
+    return f;
+  }
+
+  SCREE_HD NodeSample sample(SideFrame const& f, ShapeRecord const& shape, int i) const {
+    NodeSample out;
     int const node = active_node[i];
-    out.x =
-        state.position[out.carrier] + kinematics.rotation[out.carrier] * (node_position(scene.nodes, shape, node) * d);
-    out.weight = share * node_area(scene.nodes, shape, node) * d * d;
-    if (out.partner < 0) {
-      out.phi = phi[i];
-      out.gradient = -scene.plane[-1 - out.partner].normal;
-    } else {
-      out.phi = phi[i] * scene.diameter[out.partner];
-      out.gradient = kinematics.rotation[out.partner] * gradient[i];
-    }
+    out.x = f.position + f.rotation * (node_position(scene.nodes, shape, node) * f.d);
+    out.weight = f.share * node_area(scene.nodes, shape, node) * f.d * f.d;
+    out.phi = phi[i] * f.partner_unit;
+    out.gradient = f.partner < 0 ? f.plane_gradient : f.partner_rotation * gradient[i];
     if (options.normalise_gradient) out.gradient = normalized(out.gradient);
+    out.steep = norm(out.gradient);
     return out;
   }
 
@@ -80,17 +92,19 @@ struct ReducePair {
     Vec3 point;                            // force-weighted [m]
   };
 
-  SCREE_HD void elastic_pass(Pair const& p, int which, double share, int side, PressureLaw const& law,
+  SCREE_HD void elastic_pass(Pair const& p, SideFrame const& f, PressureLaw const& law,
                              ContactParameters const& parameters, Vec3 centre_b, Sums& sums, PairResult& out) const {
     double const secant = law.secant();
-    int const partner = which == 0 ? p.b : p.a;
+    ShapeRecord const& shape = scene.shape_record(f.carrier);
+    Vec3 const centre_a = state.position[p.a];
     // Of thick bodies the core nodes keep the energy rising to the centre; thin parts would let a node through.
-    double const half = partner < 0 ? 1e300 : scene.shape_record(partner).half_thickness * scene.diameter[partner];
-    bool const of_a = which == 0 || p.with_plane() || scene.is_wall(p.b);  // walls have no size of their own
+    double const half = f.partner < 0 ? 1e300 : scene.shape_record(f.partner).half_thickness * f.partner_unit;
+    bool const of_a = f.carrier == p.a || p.with_plane() || scene.is_wall(p.b);  // walls have no size of their own
     double const middle = half < thin_part * scene.diameter[of_a ? p.a : p.b] ? half : 1e300;
-    for (int i = active_first[side]; i < active_first[side + 1]; ++i) {
-      Sample const s = sample(p, which, share, i);
-      double const steep = norm(s.gradient);
+    for (int i = active_first[f.side]; i < active_first[f.side + 1]; ++i) {
+      NodeSample const s = sample(f, shape, i);
+      samples[i] = s;
+      double const steep = s.steep;
       ++out.active;
       double adhesion = 0;
       if (parameters.cohesion.traction > 0) {
@@ -99,11 +113,11 @@ struct ReducePair {
         sums.force -= s.weight * adhesion * steep;
         sums.point -= s.x * (s.weight * adhesion * steep);
         out.energy_normal += s.weight * parameters.cohesion.energy(s.phi);
-        add(out.elastic, s.gradient * (s.sign * s.weight * adhesion), s.x, state.position[p.a], centre_b);
+        add(out.elastic, s.gradient * (f.sign * s.weight * adhesion), s.x, centre_a, centre_b);
         if (!(s.phi > 0)) continue;
       }
       double const pressure = law.pressure(s.phi), slope = law.slope(s.phi);
-      add(out.elastic, s.gradient * (s.sign * s.weight * pressure), s.x, state.position[p.a], centre_b);
+      add(out.elastic, s.gradient * (f.sign * s.weight * pressure), s.x, centre_a, centre_b);
       double const force = s.weight * pressure * steep;
       sums.force += force;
       sums.pressing += force;
@@ -125,35 +139,34 @@ struct ReducePair {
     return cursor < end && history_node[cursor] == node ? history_xi[cursor] : Vec3{};
   }
 
-  SCREE_HD void dissipative_pass(Pair const& p, int which, double share, int side, PressureLaw const& law,
-                                 ContactParameters const& parameters, double beta, double beta_t, Vec3 centre_b,
-                                 Vec3& pressing, PairResult& out) const {
+  SCREE_HD void dissipative_pass(Pair const& p, SideFrame const& f, PressureLaw const& law,
+                                 ContactParameters const& parameters, double beta, double beta_t, Mat3 const& turn,
+                                 Vec3 centre_b, Vec3& pressing, PairResult& out) const {
     bool const friction = parameters.friction > 0;
     double const secant = law.secant();
-    Vec3 const turn = mean_spin(kinematics, p) * options.time_step;
-    int cursor = friction ? history_first[side] : 0;
-    for (int i = active_first[side]; i < active_first[side + 1]; ++i) {
-      Sample const s = sample(p, which, share, i);
+    Vec3 const centre_a = state.position[p.a];
+    int cursor = friction ? history_first[f.side] : 0;
+    for (int i = active_first[f.side]; i < active_first[f.side + 1]; ++i) {
+      NodeSample const s = samples[i];
       if (!next_xi.empty()) next_xi[i] = {};
       if (!(s.phi > 0)) continue;  // adhesion does not damp, and friction lives on the pressure of the law
-      double const pressure = law.pressure(s.phi), steep = norm(s.gradient);
+      double const pressure = law.pressure(s.phi), steep = s.steep;
       Vec3 const v =
-          point_velocity(state, kinematics, s.carrier, s.x) - point_velocity(state, kinematics, s.partner, s.x);
+          point_velocity(state, kinematics, f.carrier, s.x) - point_velocity(state, kinematics, f.partner, s.x);
       double total = pressure + beta * law.damping_weight(s.phi) * dot(s.gradient, v);
       total = total > 0 ? total : 0;  // a contact pushes, it never pulls
-      pressing += s.gradient * (s.sign * s.weight * total);
-      if (beta > 0)
-        add(out.damping, s.gradient * (s.sign * s.weight * (total - pressure)), s.x, state.position[p.a], centre_b);
+      pressing += s.gradient * (f.sign * s.weight * total);
+      if (beta > 0) add(out.damping, s.gradient * (f.sign * s.weight * (total - pressure)), s.x, centre_a, centre_b);
       if (!friction || !(steep > 0)) continue;
       Vec3 const n = s.gradient / steep;
       double const kappa_t = secant * parameters.tangential;
-      Vec3 const old = transport(remembered(side, active_node[i], cursor), turn, n);
+      Vec3 const old = transport(remembered(f.side, active_node[i], cursor), turn, n);
       TangentialResult const t =
           slide(old, v - n * dot(n, v), options.time_step, beta_t, parameters.friction * total * steep / kappa_t);
       next_xi[i] = t.xi;
       double const stiffness = s.weight * kappa_t;
       // The traction resists the carrier; on a it has the carrier's sign.
-      add(out.friction, t.traction * (s.sign * stiffness), s.x, state.position[p.a], centre_b);
+      add(out.friction, t.traction * (f.sign * stiffness), s.x, centre_a, centre_b);
       out.energy_tangential += 0.5 * stiffness * norm2(t.xi);
       out.friction_loss += stiffness * t.loss;
     }
@@ -173,12 +186,18 @@ struct ReducePair {
     return {{0.5, 0.5}};
   }
 
+  SCREE_HD bool active_on(int side) const { return side >= 0 && active_first[side] < active_first[side + 1]; }
+
   SCREE_HD void operator()(int k) const {
     if (closed_form[k]) return;
     Pair const p = pair[k];
     PairResult out;
     if (rolling.on()) rolling.next_angle[k] = {}, rolling.next_stiffness[k] = 0, rolling.result[k] = {};
     int const sides[2] = {side_of_pair[2 * std::size_t(k)], side_of_pair[2 * std::size_t(k) + 1]};
+    if (!active_on(sides[0]) && !active_on(sides[1])) {
+      result[k] = out;
+      return;
+    }
     // Walls carry nodes along their sharp edges only, so the grain's nodes keep their whole weight against them.
     bool const wall = p.with_plane() || scene.is_wall(p.b);
     Shares const share = wall || sides[0] < 0 || sides[1] < 0 ? Shares{{1, 1}} : shares_of(p);
@@ -186,12 +205,11 @@ struct ReducePair {
     PressureLaw const law = law_at_radius(parameters.normal, effective_radius(scene, p));
     Vec3 const centre_b = centre_of_b(scene, state, p);
     Sums sums;
-    for (int which = 0; which < 2; ++which)
-      if (sides[which] >= 0)
-        elastic_pass(p, which, share.of[which], sides[which], law, parameters, centre_b, sums, out);
-    if (out.active == 0) {
-      result[k] = out;
-      return;
+    SideFrame frame[2];
+    for (int which = 0; which < 2; ++which) {
+      if (!active_on(sides[which])) continue;
+      frame[which] = side_frame(p, which, share.of[which], sides[which]);
+      elastic_pass(p, frame[which], law, parameters, centre_b, sums, out);
     }
     Vec3 const x = sums.force > 0 ? sums.point / sums.force : state.position[p.a];
     double const size = norm(out.elastic.force_on_a);
@@ -209,10 +227,9 @@ struct ReducePair {
     }
     double const beta_t = sums.tangential > 0 ? 2 * zeta * std::sqrt(mass / sums.tangential) : 0;
     Vec3 pressing;  // normal force on a, with its damping [N]
-    for (int which = 0; which < 2; ++which)
-      if (sides[which] >= 0)
-        dissipative_pass(p, which, share.of[which], sides[which], law, parameters, beta, beta_t, centre_b, pressing,
-                         out);
+    Mat3 const turn = mean_turn(kinematics, p, options.time_step);
+    for (SideFrame const& f : frame)
+      if (f.side >= 0) dissipative_pass(p, f, law, parameters, beta, beta_t, turn, centre_b, pressing, out);
     out.stiffness = sums.stiffness > sums.tangential ? sums.stiffness : sums.tangential;
     out.stiffness += sums.adhesive;
     out.damping_ratio = zeta;
@@ -230,7 +247,8 @@ struct ReducePair {
 void reduce_node_contacts(Queue const& queue, SceneView const& scene, StateView const& state, KinematicsView kinematics,
                           ContactOptions const& options, Span<const Pair> pair, Span<const char> closed_form,
                           NodeLists const& lists, ActiveNodes const& active, NodeHistory const& history,
-                          NodeHistory& next, RollingView const& rolling, Span<PairResult> result) {
+                          NodeHistory& next, std::vector<NodeSample>& samples, RollingView const& rolling,
+                          Span<PairResult> result) {
   int const sides = static_cast<int>(lists.side.size());
   if (scene.friction) {
     next.node = active.node;
@@ -239,10 +257,28 @@ void reduce_node_contacts(Queue const& queue, SceneView const& scene, StateView 
     next.count.resize(sides);
     for (int s = 0; s < sides; ++s) next.count[s] = active.first[s + 1] - active.first[s];
   }
+  samples.resize(active.node.size());
   parallel_for(queue, "contact_reduce/pairs", pair.size(),
-               ReducePair{scene, state, kinematics, options, pair, closed_form, lists.side_of_pair, active.first,
-                          active.node, active.sample.point, active.sample.phi, active.sample.gradient, history.first,
-                          history.count, history.node, history.xi, next.xi, rolling, result},
+               ReducePair{scene,
+                          state,
+                          kinematics,
+                          options,
+                          pair,
+                          closed_form,
+                          lists.side_of_pair,
+                          active.first,
+                          active.node,
+                          active.sample.point,
+                          active.sample.phi,
+                          active.sample.gradient,
+                          history.first,
+                          history.count,
+                          history.node,
+                          history.xi,
+                          next.xi,
+                          samples,
+                          rolling,
+                          result},
                32);
 }
 

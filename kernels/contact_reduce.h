@@ -74,12 +74,22 @@ struct ContactOptions {
   bool normalise_gradient = false;  // wrong on purpose: the meter tests must notice it
 };
 
-// Pair results of all pairs with nodes; `next` receives the history of this step's active nodes.
+// An active node in the world frame, made once for both passes.
+struct NodeSample {
+  Vec3 x;         // [m]
+  Vec3 gradient;  // of phi with respect to x, [-]
+  double phi;     // [m]
+  double weight;  // s times area [m^2]
+  double steep;   // |gradient|
+};
+
+// Pair results of all pairs with nodes; `next` receives the history of this step's active nodes. `samples` is scratch.
 // Velocities in `state` are those at half step. Pairs in closed form are left untouched.
 void reduce_node_contacts(Queue const& queue, SceneView const& scene, StateView const& state, KinematicsView kinematics,
                           ContactOptions const& options, Span<const Pair> pair, Span<const char> closed_form,
                           NodeLists const& lists, ActiveNodes const& active, NodeHistory const& history,
-                          NodeHistory& next, RollingView const& rolling, Span<PairResult> result);
+                          NodeHistory& next, std::vector<NodeSample>& samples, RollingView const& rolling,
+                          Span<PairResult> result);
 
 // Closed-form contacts of spheres with spheres, planes and smooth walls.
 void sphere_contacts(Queue const& queue, SceneView const& scene, StateView const& state, KinematicsView kinematics,

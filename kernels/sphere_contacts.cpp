@@ -121,8 +121,8 @@ struct SpherePair {
     out.stiffness = stiffness;
     double const k_t = law.tangential(overlap) * parameters.tangential;
     if (parameters.friction > 0 && k_t > 0) {
-      Vec3 const old = transport(restored(history_xi[k], history_stiffness[k], k_t),
-                                 mean_spin(kinematics, p) * options.time_step, n);
+      Vec3 const old =
+          transport(restored(history_xi[k], history_stiffness[k], k_t), mean_turn(kinematics, p, options.time_step), n);
       TangentialResult const t =
           slide(old, v - n * dot(n, v), options.time_step, 2 * parameters.damping_sphere * std::sqrt(mass / k_t),
                 parameters.friction * total / k_t);

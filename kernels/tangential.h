@@ -45,14 +45,17 @@ SCREE_HD inline Vec3 mean_spin(KinematicsView const& kinematics, Pair const& pai
   Vec3 const wa = kinematics.spin[pair.a];
   return pair.with_plane() ? wa * 0.5 : (wa + kinematics.spin[pair.b]) * 0.5;
 }
+// How the pair turns in a step: made once a pair, for all of its springs.
+SCREE_HD inline Mat3 mean_turn(KinematicsView const& kinematics, Pair const& pair, double time_step) {
+  return to_matrix(quat_from_rotation_vector(mean_spin(kinematics, pair) * time_step));
+}
 
-// xi of the last step carried to this one: turned with the mean spin of the pair, laid into the tangent plane of unit
+// xi of the last step carried to this one: turned with the pair (mean_turn), laid into the tangent plane of unit
 // normal n, and given its old length back. Projection alone would lose the force as the pair turns.
-SCREE_HD inline Vec3 transport(Vec3 xi, Vec3 rotation, Vec3 n) {
+SCREE_HD inline Vec3 transport(Vec3 xi, Mat3 const& turn, Vec3 n) {
   double const length = norm(xi);
   if (!(length > 0)) return {};
-  Quat const q = quat_from_rotation_vector(rotation);
-  Vec3 const turned = to_matrix(q) * xi;
+  Vec3 const turned = turn * xi;
   Vec3 const flat = turned - n * dot(n, turned);
   double const flat_length = norm(flat);
   return flat_length > 0 ? flat * (length / flat_length) : Vec3{};

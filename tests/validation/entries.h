@@ -47,7 +47,7 @@ double rebound(Rebound const& r, Flaw const& flaw = {});  // speed after over sp
 void add_rebound(Entry& book, std::string const& what, Rebound const& r, Flaw const& flaw = {});
 
 // Row 7b. `transport` as in kernels/tangential.h.
-using Transport = std::function<Vec3(Vec3 xi, Vec3 rotation, Vec3 normal)>;
+using Transport = std::function<Vec3(Vec3 xi, Mat3 const& turn, Vec3 normal)>;
 void history_turns_with_the_pair(Entry& book, Transport const& transport);
 
 // Row 7d. Two grains of a shape pushed into each other until their centres meet, from several sides. allowed: what the

@@ -34,9 +34,10 @@ void history_turns_with_the_pair(Entry& book, Transport const& transport) {
   for (Axis const& axis : axes) {
     Vec3 const n{0, 0, 1}, start{1e-4, 0, 0};
     Vec3 xi = start;
+    Mat3 const step = to_matrix(quat_from_rotation_vector(axis.direction * (turn / steps)));
     for (int i = 1; i <= steps; ++i) {
       Vec3 const turned = to_matrix(quat_from_rotation_vector(axis.direction * (turn * i / steps))) * n;
-      xi = transport(xi, axis.direction * (turn / steps), turned);
+      xi = transport(xi, step, turned);
     }
     Vec3 const expected = to_matrix(quat_from_rotation_vector(axis.direction * turn)) * start;
     book.relative(fmt::format("length of the stretch, about {}", axis.name), "m", norm(start), norm(xi), 1e-6);

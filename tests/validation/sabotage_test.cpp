@@ -108,7 +108,7 @@ TEST(Sabotage, HistoryEntryLostOnRestart) {
 TEST(Sabotage, HistoryProjectedButNotTurned) {
   std::function<void(Entry&, Transport const&)> const entry = history_turns_with_the_pair;
   expect_noticed("the tangential history is projected, but not turned with the pair", entry, Transport(transport),
-                 Transport([](Vec3 xi, Vec3, Vec3 n) { return transport(xi, {}, n); }));
+                 Transport([](Vec3 xi, Mat3 const&, Vec3 n) { return transport(xi, to_matrix(Quat{}), n); }));
 }
 
 TEST(Sabotage, CoreNodesDropped) {
