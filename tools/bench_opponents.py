@@ -63,7 +63,7 @@ shapes = ["{shape}"]
 nodes = {nodes}
 count = {grains}
 diameter = {diameter}
-insert = {{ kind = "lattice", box = [[0, 0, 0], [{width}, {width}, 100]] }}
+insert = {{ kind = "{insert}", box = [[0, 0, 0], [{width}, {width}, {height}]] }}
 [[wall]]
 name = "container"
 material = "rock"
@@ -166,11 +166,14 @@ class Scene:
         a = self.a
         net = self.kind == 'superellipsoids' and a.net
         library = '[[library]]\nname = "net"\nfile = "%s"\n' % os.path.abspath(a.net) if net else ''
+        # Spheres of a lattice would fall into straight columns; at random they fill an eighth of their box.
+        spheres = self.kind == 'spheres'
+        insert, height = ('random', 4 * self.grains * DIAMETER**3 / self.width**2) if spheres else ('lattice', 100)
         with open(os.path.join(self.folder, 'case.toml'), 'w') as f:
             f.write(CASE.format(seconds=a.seconds, after=0.6 * a.seconds, library=library, density=DENSITY, kn=KN,
                                 ratio=KT / KN, friction=FRICTION, damping=RATIO, grains=self.grains, diameter=DIAMETER,
-                                width=self.width, nodes=a.nodes,
-                                shape='sphere' if self.kind == 'spheres' else 'net:*' if net else SHAPE))
+                                width=self.width, nodes=a.nodes, insert=insert, height=height,
+                                shape='sphere' if spheres else 'net:*' if net else SHAPE))
         state = os.path.join(self.folder, 'settled', 'results.h5')
         if not os.path.exists(state) or not a.keep:
             call([a.scree, 'run', 'case.toml', '--output', 'settled', '--force', '--quiet'], self.folder, a.threads)
