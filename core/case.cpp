@@ -30,7 +30,7 @@ void read_time(CaseReader r, TimeCase& out) {
   } else if (step) {
     r.number("step", out.step);
   }
-  r.number("safety", out.safety);
+  out.safety_given = r.number("safety", out.safety);
   if (auto settle = r.table("settle")) {
     SettleCase& s = out.settle.emplace();
     settle->number("damping", s.damping);
@@ -199,7 +199,9 @@ void read_grains(CaseReader r, GrainsCase& out) {
     r.report("grid_cells", "has a meaning beside evaluator = \"grid\" only");
   if (r.integer("mesh_cells", out.mesh_cells) && out.evaluator != Evaluator::mesh)
     r.report("mesh_cells", "has a meaning beside evaluator = \"mesh\" only");
-  if (CaseNode const* const nodes = r.present("nodes"); nodes && nodes->kind == CaseNode::Kind::string) {
+  CaseNode const* const nodes = r.present("nodes");
+  out.nodes_given = nodes != nullptr;
+  if (nodes && nodes->kind == CaseNode::Kind::string) {
     if (nodes->text == "fast")
       out.nodes = 1000;
     else

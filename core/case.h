@@ -49,6 +49,20 @@ struct TimeCase {
   std::optional<double> step;  // absent: automatic [s]
   double safety = 0.3;         // of the critical step
   std::optional<SettleCase> settle;
+  bool safety_given = false;  // said by the user: [accuracy] leaves it alone
+};
+
+// Named budgets of [accuracy], see core/accuracy.h.
+enum class AccuracyPreset { none, fast, balanced, reference };
+double budget_of(AccuracyPreset preset);  // of a name that is one
+
+// What is asked of forces instead of node counts and steps; core/accuracy.h turns it into them.
+struct AccuracyCase {
+  std::optional<double> budget;                  // relative error of the force of a contact; exactly one of this ...
+  AccuracyPreset preset = AccuracyPreset::none;  // ... and a name
+  std::optional<double> overlap;  // of the contacts that it holds for [d]; absent: the case's typical one
+
+  double wanted() const { return budget ? *budget : budget_of(preset); }
 };
 
 struct LibraryCase {
@@ -145,6 +159,7 @@ struct GrainsCase {
   std::optional<SampleCase> sample{};            // exactly one of shapes, ...
   std::optional<InterpolateCase> interpolate{};  // ... sample and interpolate
   bool apart = false;                            // grains meet those of their own entry only
+  bool nodes_given = false;                      // said by the user: [accuracy] leaves them alone
 };
 
 // Prescribed motion of a wall. Constant between start and end, or a table: linear between its times, constant beyond.
@@ -214,7 +229,8 @@ struct Case {
   std::uint64_t seed = 1;
   int replicas = 1;  // independent copies of all grains, which never meet
   TimeCase time;
-  std::optional<Vec3> gravity;  // [m/s2]; absent: none
+  std::optional<AccuracyCase> accuracy;  // absent: node counts and steps are what the case says
+  std::optional<Vec3> gravity;           // [m/s2]; absent: none
   std::optional<DragCase> drag;
   std::optional<DampingCase> damping;
   std::vector<ForceCase> force;

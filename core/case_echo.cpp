@@ -61,10 +61,11 @@ char const* to_string(Evaluator e) {
   throw std::invalid_argument("this Evaluator does not exist");
 }
 
-void write_time(std::string& out, TimeCase const& t) {
+// With [accuracy], what it is to find out is not written.
+void write_time(std::string& out, TimeCase const& t, bool accuracy) {
   out += fmt::format("\n[time]\nend = {}  # [s]\n", t.end);
   out += t.step ? fmt::format("step = {}  # [s]\n", *t.step) : "step = \"auto\"\n";
-  out += fmt::format("safety = {}\n", t.safety);
+  if (!accuracy || t.safety_given) out += fmt::format("safety = {}\n", t.safety);
   if (t.settle)
     out += fmt::format(
         "settle = {{ damping = {}, after = {}, kinetic_per_grain = {}, hold = {} }}  # [1/s], [s], [m g d], [s]\n",
@@ -111,7 +112,7 @@ std::string interpolate_keys(InterpolateCase const& i) {
                      toml_quoted(i.from), toml_quoted(i.to), t);
 }
 
-void write_grains(std::string& out, GrainsCase const& g) {
+void write_grains(std::string& out, GrainsCase const& g, bool accuracy) {
   out += fmt::format("\n[[grains]]\nname = {}\nmaterial = {}\n", toml_quoted(g.name), toml_quoted(g.material));
   if (!g.shapes.empty()) out += fmt::format("shapes = {}\n", quoted_list(g.shapes));
   if (g.sample) out += sample_keys(*g.sample);
@@ -119,8 +120,9 @@ void write_grains(std::string& out, GrainsCase const& g) {
   out += fmt::format("evaluator = \"{}\"\n", to_string(g.evaluator));
   if (g.evaluator == Evaluator::grid) out += fmt::format("grid_cells = {}\n", g.grid_cells);
   if (g.evaluator == Evaluator::mesh) out += fmt::format("mesh_cells = {}\n", g.mesh_cells);
+  if (!accuracy || g.nodes_given) out += fmt::format("nodes = {}\n", g.nodes);
   out += fmt::format(
-      "nodes = {}\nstorage = \"{}\"\ncount = {}\ndiameter = {}  # [m]\n", g.nodes,
+      "storage = \"{}\"\ncount = {}\ndiameter = {}  # [m]\n",
       g.storage == NodeStorage::compact ? "compact" : "explicit", g.count,
       g.least_diameter ? fmt::format("[{}, {}]", *g.least_diameter, g.diameter) : fmt::format("{}", g.diameter));
   if (g.apart) out += "apart = true\n";
@@ -154,7 +156,7 @@ void write_grains(std::string& out, GrainsCase const& g) {
 std::string to_toml(Case const& c) {
   std::string out = fmt::format("[case]\nname = {}\nseed = {}\n", toml_quoted(c.name), c.seed);
   if (c.replicas != 1) out += fmt::format("replicas = {}\n", c.replicas);
-  write_time(out, c.time);
+  write_time(out, c.time, c.accuracy.has_value());
   if (c.gravity) out += fmt::format("\n[gravity]\nacceleration = {}  # [m/s2]\n", toml_vector(*c.gravity));
   out += effects_to_toml(c);
   for (LibraryCase const& l : c.library)
@@ -163,7 +165,7 @@ std::string to_toml(Case const& c) {
   for (MaterialCase const& m : c.material)
     out += fmt::format("\n[[material]]\nname = {}\ndensity = {}  # [kg/m3]\n", toml_quoted(m.name), m.density);
   for (ContactCase const& k : c.contact) write_contact(out, k);
-  for (GrainsCase const& g : c.grains) write_grains(out, g);
+  for (GrainsCase const& g : c.grains) write_grains(out, g, c.accuracy.has_value());
   for (WallCase const& w : c.wall) out += wall_to_toml(w);
   out += measures_to_toml(c);
   out += run_to_toml(c);

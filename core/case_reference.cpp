@@ -38,6 +38,7 @@ wall = [
   { kind = "cone", motion = { kind = "translation", time = [] } },
   { kind = "capsule" }, { kind = "mesh" }, { kind = "terrain" },
 ]
+accuracy = {}
 output = {}
 checkpoint = {}
 limits = {}

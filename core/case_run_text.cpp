@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 #include "core/case_range.h"
 #include "core/certificate_gate.h"
@@ -40,9 +41,46 @@ void read_limits(CaseReader r, LimitsCase& out) {
   r.finish();
 }
 
+void read_accuracy(CaseReader r, AccuracyCase& out) {
+  r.number("budget", out.budget);
+  using P = AccuracyPreset;
+  r.choice<P>("preset", out.preset, {{"fast", P::fast}, {"balanced", P::balanced}, {"reference", P::reference}});
+  r.number("overlap", out.overlap);
+  r.finish();
+}
+
+char const* to_string(AccuracyPreset preset) {
+  switch (preset) {
+    case AccuracyPreset::fast:
+      return "fast";
+    case AccuracyPreset::balanced:
+      return "balanced";
+    case AccuracyPreset::reference:
+      return "reference";
+    case AccuracyPreset::none:
+      break;
+  }
+  throw std::invalid_argument("this AccuracyPreset has no name");
+}
+
 }  // namespace
 
+double budget_of(AccuracyPreset preset) {
+  switch (preset) {
+    case AccuracyPreset::fast:
+      return 0.15;
+    case AccuracyPreset::balanced:
+      return 0.03;
+    case AccuracyPreset::reference:
+      return 0.003;
+    case AccuracyPreset::none:
+      break;
+  }
+  throw std::invalid_argument("this AccuracyPreset has no budget");
+}
+
 void read_run(CaseReader& root, Case& out) {
+  if (auto accuracy = root.table("accuracy")) read_accuracy(*accuracy, out.accuracy.emplace());
   if (auto output = root.table("output")) read_output(*output, out.output);
   if (auto checkpoint = root.table("checkpoint")) read_checkpoint(*checkpoint, out.checkpoint.emplace());
   if (auto limits = root.table("limits")) read_limits(*limits, out.limits);
@@ -58,6 +96,17 @@ void check_run(Case const& c, std::vector<CaseProblem>& found) {
   auto const positive = [&](std::string const& key, double value, char const* reason) {
     range(key, value, 0, false, std::numeric_limits<double>::infinity(), reason);
   };
+  if (c.accuracy) {
+    AccuracyCase const& a = *c.accuracy;
+    if (a.budget.has_value() == (a.preset != AccuracyPreset::none))
+      fail("accuracy.budget", "give exactly one of budget and preset; leave [accuracy] out for neither");
+    if (a.budget) range("accuracy.budget", *a.budget, 1e-3, true, 0.5, "the relative error of a contact's force");
+    if (a.overlap) range("accuracy.overlap", *a.overlap, 0, false, 0.1, "d; the contacts that the budget is for");
+    for (std::size_t i = 0; i < c.grains.size(); ++i)
+      if (c.grains[i].storage == NodeStorage::compact && !c.grains[i].nodes_given)
+        fail(fmt::format("grains.{}.storage", i),
+             "[accuracy] counts nodes that are kept as arrays: give `nodes` beside \"compact\", or use \"explicit\"");
+  }
   positive("output.every", c.output.every, "seconds between frames");
   if (c.checkpoint) {
     positive("checkpoint.every", c.checkpoint->every, "seconds between checkpoints");
@@ -82,7 +131,13 @@ void check_run(Case const& c, std::vector<CaseProblem>& found) {
 }
 
 std::string run_to_toml(Case const& c) {
-  std::string out = fmt::format("\n[output]\nevery = {}  # [s]\nparaview = {}\n", c.output.every, c.output.paraview);
+  std::string out;
+  if (c.accuracy) {
+    out += c.accuracy->budget ? fmt::format("\n[accuracy]\nbudget = {}\n", *c.accuracy->budget)
+                              : fmt::format("\n[accuracy]\npreset = \"{}\"\n", to_string(c.accuracy->preset));
+    if (c.accuracy->overlap) out += fmt::format("overlap = {}  # [d]\n", *c.accuracy->overlap);
+  }
+  out += fmt::format("\n[output]\nevery = {}  # [s]\nparaview = {}\n", c.output.every, c.output.paraview);
   if (c.checkpoint)
     out += fmt::format("\n[checkpoint]\nevery = {}  # [s]\nkeep = {}\n", c.checkpoint->every, c.checkpoint->keep);
   if (c.relax)

@@ -23,6 +23,7 @@ namespace scree {
 
 Simulation::Impl::Impl(Case const& c_, SimulationOptions const& options_, Frame const* start)
     : c(c_), options(options_) {
+  if (c.accuracy) throw InputError({"accuracy: node counts and step are not picked yet, see core/accuracy.h"});
   queue.threads = std::max(1, options.threads);
   queue.profile = &profile;
   Placement placement;

@@ -161,6 +161,19 @@ StepEstimate estimate_critical_step(Case const& c, Scene const& scene, Placement
   return out;
 }
 
+double overlap_at_speed(Case const& c, Scene const& scene, int body, double speed) {
+  ContactParameters const& p = scene.contact[scene.material_of[body] * (static_cast<int>(scene.material.size()) + 1)];
+  if (!(p.normal.modulus > 0)) return 0;
+  double const d = scene.diameter[body], m = scene.mass[body], weight = c.gravity ? m * norm(*c.gravity) : 0;
+  SphereLaw const law{law_at_radius(p.normal, d / 4), d / 4};
+  double low = 0, high = law.radius;  // at rest
+  for (int i = 0; i < 60; ++i) {
+    double const mid = 0.5 * (low + high);
+    (law.force(mid) < weight ? low : high) = mid;
+  }
+  return std::max(high, impact_overlap(law, m / 2, speed * speed)) / d;
+}
+
 std::vector<std::string> load_problems(Case const& c, Scene const& scene) {
   std::vector<std::string> found;
   if (!c.gravity) return found;

@@ -17,6 +17,10 @@ struct StepEstimate {
 // size at that speed, flat faces by their area; stiffness and lever arms as in critical_time_step().
 StepEstimate estimate_critical_step(Case const& c, Scene const& scene, Placement const& placement);
 
+// Overlap of a grain that meets its like head-on at `speed` [m/s], but at least that of a contact that carries its
+// weight; 0 where its material never meets itself [d].
+double overlap_at_speed(Case const& c, Scene const& scene, int body, double speed);
+
 // Weight the softest material pair carries at 1 % d, in weights of its heaviest grain (design physics.md section 4).
 double load_in_grain_weights(Case const& c, Scene const& scene);
 

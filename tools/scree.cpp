@@ -218,8 +218,15 @@ void add_cost(CLI::App& app, CostArguments& a, std::function<int()>& chosen) {
       ->check(CLI::Range(100, 256000));
   c->add_flag("--large", a.large, "64,000 nodes, too, compared with 256,000: an hour");
   c->add_flag("--quick", a.quick, "Seconds: shows that it works, its figures mean nothing");
+  c->add_option(
+       "--promise", a.promise,
+       "Instead: errors of so many random settings with what [accuracy] picks for them; exit code 1 where less "
+       "than 95 % keep their budget. 50 take half an hour of processor time")
+      ->check(CLI::Range(1, 10000));
+  c->add_option("--seed", a.seed, "Of the settings of --promise")->check(CLI::Range(1, 1000000))->capture_default_str();
+  c->add_option("--threads", a.threads, "Of --promise")->check(CLI::Range(1, 4096))->capture_default_str();
   a.share = share_folder();
-  c->callback([&] { chosen = [&] { return cost_command(a); }; });
+  c->callback([&] { chosen = [&] { return a.promise > 0 ? promise_command(a) : cost_command(a); }; });
 }
 
 int complain(ExitCode code, std::string const& what) {

@@ -111,6 +111,9 @@ struct CostArguments {
   std::vector<int> nodes;                   // a grain; empty: 250 to 16,000
   bool large = false;                       // 64,000 nodes, too, compared with 256,000
   bool quick = false;                       // seconds, for figures that mean nothing
+  int promise = 0;                          // instead: settings in which [accuracy] has to keep its word
+  int seed = 1;                             // of the list of settings
+  int threads = 1;                          // of the promise; costs are of one thread
 };
 
 int run_command(RunArguments const& arguments);
@@ -125,6 +128,7 @@ int export_command(ExportArguments const& arguments);
 int envelopes_command(EnvelopesArguments const& arguments);
 int validate_command(ValidateArguments const& arguments);
 int cost_command(CostArguments const& arguments);
+int promise_command(CostArguments const& arguments);    // where arguments.promise is set
 int export_surfaces(ExportArguments const& arguments);  // where arguments.surfaces is set
 
 // Threads to use: all cores unless the user says otherwise.

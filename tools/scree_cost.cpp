@@ -9,8 +9,10 @@
 #include "kernels/base/build_info.h"
 #include "shapes/whole_file.h"
 #include "tools/cost_table.h"
+#include "tools/machine_costs.h"
 #include "tools/measured_on.h"
 #include "tools/plot_script.h"
+#include "tools/promise.h"
 #include "tools/scree_commands.h"
 
 namespace scree {
@@ -180,6 +182,40 @@ int cost_command(CostArguments const& a) {
   else
     fmt::print("no picture: {}\n", trouble);
   return exit_ok;
+}
+
+int promise_command(CostArguments const& a) {
+  fs::create_directories(a.output);
+  PromiseOptions o;
+  o.library = find_library(a);
+  o.accuracy.threads = a.threads;
+  if (a.quick) o.accuracy.dense_points = 32000, o.accuracy.most_nodes = 4000, o.contacts = 4;
+  o.costs = machine_costs();
+  std::vector<PromiseResult> results;
+  int taken = 0, kept = 0, contacts = 0, within = 0;
+  double worst = 0;  // 95 % of the contacts of a setting, in budgets
+  for (int index = 0; taken < a.promise; ++index) {
+    PromiseResult const r = try_promise(promise_setting(a.seed, index, true), o, 100000 + index);
+    results.push_back(r);
+    PromiseSetting const& s = r.setting;
+    std::string const what =
+        fmt::format("{}, {:.2g} % d deep, budget {:.2g} %", s.shape, 100 * s.overlap, 100 * s.budget);
+    replace_whole_file(a.output / "promise.csv", promise_csv(results));
+    if (!r.refused.empty()) {
+      progress(what + ": " + r.refused);
+      continue;
+    }
+    ++taken, kept += r.kept(), contacts += o.contacts, within += r.within;
+    worst = std::max(worst, r.p95 / s.budget);
+    progress(fmt::format("{}: {} nodes, 95 % of contacts within {:.2g} %{}", what, r.nodes, 100 * r.p95,
+                         r.kept() ? "" : ": not kept"));
+  }
+  fmt::print(
+      "{} of {} settings kept their budget in 95 % of {} contacts each, {} were refused; worst {:.2f} budgets; "
+      "{:.2f} % of all contacts\n{}{}: promise.csv\n",
+      kept, taken, o.contacts, results.size() - static_cast<std::size_t>(taken), worst, 100.0 * within / contacts,
+      measured_on(), a.output.string());
+  return kept >= 0.95 * taken ? exit_ok : exit_watch;
 }
 
 }  // namespace scree

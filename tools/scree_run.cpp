@@ -15,11 +15,13 @@
 #include "core/simulation.h"
 #include "kernels/base/device.h"
 #include "shapes/whole_file.h"
+#include "tools/picked_case.h"
 #include "tools/run_checkpoints.h"
 #include "tools/scree_commands.h"
 #include "tools/scree_folder.h"
 #include "tools/scree_measures.h"
 #include "tools/scree_report.h"
+#include "tools/step_meter.h"
 
 namespace scree {
 namespace {
@@ -39,14 +41,15 @@ class Recorder {
  public:
   // `header` is that of the run's beginning. `earlier`: the frames of an earlier process, which are written again;
   // `schedule`: how far it was. Null: the run begins, with its first frame.
-  Recorder(OutputFolder const& folder, Case const& c, ResultsHeader const& header, Simulation& simulation,
+  Recorder(OutputFolder const& folder, PickedCase const& picked, ResultsHeader const& header, Simulation& simulation,
            EarlierFrames const* earlier, OutputProgress const* schedule)
       : results_(folder.file("results.h5"), header),
         ledger_(folder.file("ledger.csv"), 0),
-        measures_(folder, c, simulation, schedule),
+        measures_(folder, picked.c, simulation, schedule),
         column_(results_layout::columns_with(header.ledger)),
-        every_(c.output.every) {
-    write_whole_file(folder.file("case.effective.toml"), to_toml(c), true);
+        every_(picked.c.output.every) {
+    Case const& c = picked.c;
+    write_whole_file(folder.file("case.effective.toml"), effective_text(picked), true);
     std::string names;
     for (results_layout::LedgerColumn const& column : column_)
       names += fmt::format("{}{}", names.empty() ? "" : ",", column.name);
@@ -157,12 +160,23 @@ Ending step_to_the_end(Simulation& simulation, Recorder& recorder, RunCheckpoint
   return {exit_ok, simulation.state() == RunState::at_rest ? "at rest" : "reached time.end"};
 }
 
-void introduce(RunLog& log, Case const& c, Simulation const& simulation, std::string const& device) {
+void introduce(RunLog& log, PickedCase const& picked, Simulation const& simulation, std::string const& device) {
+  Case const& c = picked.c;
   Plan const plan = simulation.plan();
   log.say(fmt::format("{}: {} grains of {} shapes, {} networks, {}", c.name, plan.bodies, plan.shapes, plan.networks,
                       device));
   log.say(fmt::format("{} steps of {:.3g} s to t = {:g} s", grouped(plan.steps), plan.step, c.time.end));
+  for (std::string const& word : picked.words) log.say(word);
   for (std::string const& note : plan.notes) log.say(note);
+}
+
+// What [accuracy] promised beside what the run took: `cpu` of all threads [s].
+std::string cost_in_words(AccuracyPick const& pick, Simulation const& s, double cpu) {
+  double const particle_steps = static_cast<double>(s.bodies()) * static_cast<double>(s.own_steps());
+  return fmt::format(
+      "accuracy: {:.3g} us of processor time a particle-step, predicted {:.3g}; {:.3g} s in all, predicted {:.3g} to "
+      "time.end; estimated error {:.2g} % of a contact's force",
+      1e6 * cpu / std::max(1.0, particle_steps), pick.step_us, cpu, pick.seconds, 100 * pick.error());
 }
 
 void summarise(RunLog& log, OutputFolder const& folder, Case const& c, Simulation const& s, Recorder const& recorder,
@@ -216,9 +230,10 @@ int run_command(RunArguments const& arguments) {
   std::string device;
   SimulationOptions const options = choose_backend(arguments.scene, &device);
   // Everything that can be wrong with the input is found before the output folder is touched.
-  Case const c = load_case(arguments.scene.file, arguments.scene.overrides, arguments.scene.share);
   fs::path const output =
       arguments.output.empty() ? fs::path(arguments.scene.file.stem().string() + ".out") : arguments.output;
+  PickedCase const picked = load_picked_case(arguments.scene, arguments.resume ? output : fs::path());
+  Case const& c = picked.c;
   FolderUse const use = arguments.resume ? FolderUse::resume : arguments.force ? FolderUse::replace : FolderUse::fresh;
   OutputFolder::check(output, use);
   Simulation simulation(c, options);
@@ -237,12 +252,12 @@ int run_command(RunArguments const& arguments) {
   std::optional<EarlierFrames> earlier;
   if (checkpoint) earlier.emplace(output, checkpoint->output);
   RunLog log(folder.file("run.log"), checkpoint.has_value());
-  introduce(log, c, simulation, device);
+  introduce(log, picked, simulation, device);
   for (std::string const& remark : remarks) log.say(remark);
   if (arguments.resume)
     log.say(checkpoint ? fmt::format("goes on from t = {:.6g} s, step {}", simulation.time(), simulation.steps())
                        : "no earlier run in " + output.string() + ": starts at t = 0");
-  Recorder recorder(folder, c, header, simulation, earlier ? &*earlier : nullptr,
+  Recorder recorder(folder, picked, header, simulation, earlier ? &*earlier : nullptr,
                     checkpoint ? &checkpoint->output : nullptr);
   RunCheckpoints checkpoints(output, c, simulation);
   Progress progress(simulation.time(), c.time.end, arguments.quiet);
@@ -250,8 +265,10 @@ int run_command(RunArguments const& arguments) {
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
   auto const start = std::chrono::steady_clock::now();
+  double const cpu_before = process_seconds();
   Ending const ending = step_to_the_end(simulation, recorder, checkpoints, progress, log);
   double const wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  double const cpu = process_seconds() - cpu_before;
   progress.clear();
 
   for (std::string const& message : simulation.messages()) log.say(message);
@@ -266,6 +283,7 @@ int run_command(RunArguments const& arguments) {
   if (last) log.say(fmt::format("checkpoint {}", last->string()));
   write_whole_file(folder.file("stages.json"), stages_json(stages, simulation, options.threads, wall), true);
   summarise(log, folder, c, simulation, recorder, ending, stages, wall);
+  if (picked.pick) log.say(cost_in_words(*picked.pick, simulation, cpu));
   if (ending.code == exit_watch) fmt::print(stderr, "scree: error: {}\n", ending.text);
   return ending.code;
 }

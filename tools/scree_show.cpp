@@ -14,6 +14,7 @@
 #include "core/vtkhdf.h"
 #include "shapes/file_container.h"
 #include "shapes/model_file.h"
+#include "tools/picked_case.h"
 #include "tools/scree_commands.h"
 #include "tools/scree_measures.h"
 #include "tools/scree_report.h"
@@ -154,7 +155,8 @@ int export_vtkhdf(ExportArguments const& arguments, ResultsReader const& reader)
 }  // namespace
 
 int plan_command(CaseArguments const& arguments) {
-  Case const c = load_case(arguments.file, arguments.overrides, arguments.share);
+  PickedCase const picked = load_picked_case(arguments);
+  Case const& c = picked.c;
   Plan const plan = simulation_of(arguments, c).plan();
   fmt::print("{}: {} bodies, {} shapes, {} networks, up to {} nodes a grain\n", c.name, plan.bodies, plan.shapes,
              plan.networks, plan.nodes_max);
@@ -169,14 +171,16 @@ int plan_command(CaseArguments const& arguments) {
     total += a.bytes;
   }
   fmt::print("  {:<28} {:>16} bytes\n", "together", grouped(total));
+  for (std::string const& word : picked.words) fmt::print("note     {}\n", word);
   for (std::string const& note : plan.notes) fmt::print("note     {}\n", note);
   return exit_ok;
 }
 
 int check_command(CaseArguments const& arguments) {
-  Case const c = load_case(arguments.file, arguments.overrides, arguments.share);
-  Plan const plan = simulation_of(arguments, c).plan();
+  PickedCase const picked = load_picked_case(arguments);
+  Plan const plan = simulation_of(arguments, picked.c).plan();
   fmt::print("{}: good: {} bodies of {} shapes\n", arguments.file.string(), plan.bodies, plan.shapes);
+  for (std::string const& word : picked.words) fmt::print("note: {}\n", word);
   for (std::string const& note : plan.notes) fmt::print("note: {}\n", note);
   return exit_ok;
 }

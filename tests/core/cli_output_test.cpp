@@ -190,6 +190,40 @@ TEST_F(Program, SampledGrainsRunAndTheirResultsStandAlone) {
   EXPECT_EQ(a.frame(-1).position, b.frame(-1).position);
 }
 
+// A ball has no nodes to pick, only the step. What was picked, written out, repeats the run bit by bit.
+TEST_F(Program, AccuracyPicksAndTheEffectiveCaseRepeatsTheRun) {
+  write("small.toml", with(with(small_case, "step = 1e-5\n", ""), "[[material]]",
+                           "[accuracy]\npreset = \"fast\"\n[checkpoint]\n[[material]]"));
+  std::string const cache = "env SCREE_CACHE=" + (folder_ / "cache").string() + " ";
+  auto const scree = [&](std::string const& arguments) {
+    return shell(folder_, cache + SCREE_PROGRAM " " + arguments);
+  };
+  Outcome const check = scree("check small.toml");
+  EXPECT_EQ(check.code, 0) << check.text;
+  EXPECT_NE(check.text.find("accuracy: asked for 15 %"), std::string::npos) << check.text;
+  EXPECT_NE(check.text.find("accuracy: time.safety = 0.5,"), std::string::npos) << check.text;
+  EXPECT_NE(scree("plan small.toml").text.find("accuracy: predicted"), std::string::npos);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / "cache"), fs::directory_iterator()), 1);  // measured once
+  Outcome const run = scree("run small.toml -o first");
+  ASSERT_EQ(run.code, 0) << run.text;
+  EXPECT_NE(run.text.find("us of processor time a particle-step, predicted"), std::string::npos) << run.text;
+  std::string const effective = read_file(folder_ / "first/case.effective.toml");
+  EXPECT_EQ(effective.find("[accuracy]"), std::string::npos);
+  EXPECT_TRUE(effective.starts_with("# accuracy: asked for 15 %"));
+  EXPECT_NE(effective.find("\nsafety = 0.5\n"), std::string::npos);
+  ASSERT_EQ(scree("run first/case.effective.toml -o second").code, 0);
+  EXPECT_EQ(read_file(folder_ / "second/ledger.csv"), read_file(folder_ / "first/ledger.csv"));
+  EXPECT_EQ(read_file(folder_ / "second/case.effective.toml"), effective.substr(effective.find("[case]")));
+  // A run that goes on keeps what it began with, whatever would be picked now: another safety there is another case.
+  Outcome const longer = scree("run small.toml -o first --resume --set time.end=0.003");
+  EXPECT_EQ(longer.code, 0) << longer.text;
+  EXPECT_NE(longer.text.find("as picked when the run began"), std::string::npos) << longer.text;
+  write("first/case.effective.toml", with(effective, "\nsafety = 0.5", "\nsafety = 0.4"));
+  Outcome const other = scree("run small.toml -o first --resume --set time.end=0.004");
+  EXPECT_EQ(other.code, 2);
+  EXPECT_NE(other.text.find("safety = 0.4"), std::string::npos) << other.text;
+}
+
 TEST_F(Program, InfoReadsModelsAndRefusesOtherFiles) {
   write_small_model("model.h5");
   Outcome const model = scree("info model.h5");
