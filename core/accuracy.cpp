@@ -247,7 +247,8 @@ void Picker::refuse() {
                      out_.budget)});
   AccuracyPick::Entry const& e = out_.entry[worst->entry];
   throw InputError({fmt::format(
-      "accuracy.budget: {:.3g} is not reachable: {} nodes on '{}' of grains '{}' leave {:.2g} in contacts {:.2g} d deep "
+      "accuracy.budget: {:.3g} is not reachable: {} nodes on '{}' of grains '{}' leave {:.2g} in contacts {:.2g} d "
+      "deep "
       "(sharp edges and light contacts need the most); ask for more than that, for deeper contacts "
       "(accuracy.overlap), or give nodes",
       out_.budget, options_.most_nodes, scene_.library.shape[worst->shape].name, e.name, reach, e.overlap)});
