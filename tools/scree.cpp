@@ -224,6 +224,9 @@ void add_cost(CLI::App& app, CostArguments& a, std::function<int()>& chosen) {
        "than 95 % keep their budget. 50 take half an hour of processor time")
       ->check(CLI::Range(1, 10000));
   c->add_option("--seed", a.seed, "Of the settings of --promise")->check(CLI::Range(1, 1000000))->capture_default_str();
+  c->add_option("--from", a.from, "First setting of --promise, refused ones counted: a long trial in parts")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
   c->add_option("--threads", a.threads, "Of --promise")->check(CLI::Range(1, 4096))->capture_default_str();
   a.share = share_folder();
   c->callback([&] { chosen = [&] { return a.promise > 0 ? promise_command(a) : cost_command(a); }; });

@@ -113,6 +113,7 @@ struct CostArguments {
   bool quick = false;                       // seconds, for figures that mean nothing
   int promise = 0;                          // instead: settings in which [accuracy] has to keep its word
   int seed = 1;                             // of the list of settings
+  int from = 0;                             // first of the promise's settings: long trials can be run in parts
   int threads = 1;                          // of the promise; costs are of one thread
 };
 

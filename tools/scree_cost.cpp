@@ -194,7 +194,7 @@ int promise_command(CostArguments const& a) {
   std::vector<PromiseResult> results;
   int taken = 0, kept = 0, contacts = 0, within = 0;
   double worst = 0;  // 95 % of the contacts of a setting, in budgets
-  for (int index = 0; taken < a.promise; ++index) {
+  for (int index = a.from; taken < a.promise; ++index) {
     PromiseResult const r = try_promise(promise_setting(a.seed, index, true), o, 100000 + index);
     results.push_back(r);
     PromiseSetting const& s = r.setting;
