@@ -97,8 +97,8 @@ void assign_sides(SceneView const& scene, int networks, Span<const Pair> pair, S
                   Span<const char> closed_form, NodeGather& gather, std::vector<int>& old_side);
 
 // Steps of a pair's motion that the skin of a fresh list covers. A longer skin makes rebuilds rarer and lists longer;
-// listed nodes cost little before they are due. `scree cost` sweeps it: skins.csv.
-double constexpr steps_a_skin = 40;
+// listed nodes cost little before they are due. `scree cost` sweeps it: tools/cost/skins.csv.
+double constexpr steps_a_skin = 160;
 
 struct GatherOptions {
   double time_step = 0;  // [s], from which a pair's skin follows its motion

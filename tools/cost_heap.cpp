@@ -46,7 +46,7 @@ void HeapMeter::tell(CostOptions const& options, CostRow& row) const {
 std::vector<SkinRow> measure_skins(CostOptions const& options, int nodes, Frame const& frame) {
   std::vector<HeapMeter> heap;
   std::vector<SkinRow> rows;
-  for (double factor : {0.125, 0.25, 0.5, 1.0, 2.0, 4.0, 8.0}) {
+  for (double factor : {1. / 32, 1. / 16, 1. / 8, 1. / 4, 1. / 2, 1., 2., 4.}) {
     SimulationOptions simulation;
     rows.emplace_back().steps = factor * steps_a_skin;
     simulation.skin_steps = rows.back().steps;
