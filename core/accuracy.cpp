@@ -12,6 +12,7 @@
 
 #include "core/contact_errors.h"
 #include "core/figure_cache.h"
+#include "core/impulse_error.h"
 #include "core/time_step.h"
 #include "shapes/content_cache.h"
 
@@ -25,8 +26,6 @@ int constexpr shapes_an_entry = 8;
 double constexpr safeties[] = {0.5, 0.4, 0.3, 0.2, 0.15, 0.1, 0.05};
 double constexpr fallback_overlap = 0.01;  // where nothing weighs or moves [d]
 double constexpr least_overlap = 1e-3;     // the automatic step assumes no less [d]
-
-double exponent_of(ContactLaw law) { return law == ContactLaw::linear ? 1 : law == ContactLaw::hertz ? 1.5 : 2; }
 
 // Node errors of one shape, from the cache or measured, and kept.
 class KnownErrors {
@@ -87,6 +86,7 @@ double known_query_ns(Library const& library, Shape const& shape, StepCosts cons
   keep_figures(key, {ns});
   return ns;
 }
+
 // Error of the force that phi's own error makes in contacts so deep: F ~ overlap^e, phi off by its certificate's mean.
 double shape_error(Shape const& shape, double overlap, double exponent) {
   if (shape.kind == ShapeKind::analytic) return 0;
@@ -145,7 +145,7 @@ void Picker::describe(std::size_t entry) {
   e.shapes = static_cast<int>(shapes.size());
   int const materials = static_cast<int>(scene_.material.size());
   PressureLaw const law = scene_.contact[scene_.material_of[largest] * (materials + 1)].normal;
-  e.exponent = exponent_of(law.kind);
+  e.exponent = force_exponent(law.kind);
   e.resting = overlap_at_speed(c_, scene_, largest, 0);
   if (!c_.gravity) e.resting = 0;
   double const typical = speed_ > 0 || e.resting > 0 ? overlap_at_speed(c_, scene_, largest, speed_) : fallback_overlap;
@@ -248,8 +248,7 @@ void Picker::refuse() {
   AccuracyPick::Entry const& e = out_.entry[worst->entry];
   throw InputError({fmt::format(
       "accuracy.budget: {:.3g} is not reachable: {} nodes on '{}' of grains '{}' leave {:.2g} in contacts {:.2g} d "
-      "deep "
-      "(sharp edges and light contacts need the most); ask for more than that, for deeper contacts "
+      "deep (sharp edges and light contacts need the most); ask for more than that, for deeper contacts "
       "(accuracy.overlap), or give nodes",
       out_.budget, options_.most_nodes, scene_.library.shape[worst->shape].name, e.name, reach, e.overlap)});
 }

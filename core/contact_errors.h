@@ -73,9 +73,4 @@ class ContactErrors {
   std::vector<Vec3> exact_;
 };
 
-// Largest error of the impulse of a head-on contact, as a share of it, when the step is `safety` of the critical one at
-// its deepest overlap: velocity Verlet, whatever part of a step before touch it begins. Of a pressure law between
-// smooth bodies: winkler F ~ x^2, hertz x^1.5, linear x. Never less than for a smaller step.
-double impulse_error(ContactLaw law, double safety);
-
 }  // namespace scree

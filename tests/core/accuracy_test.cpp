@@ -14,6 +14,7 @@
 #include "core/case_text.h"
 #include "core/contact_errors.h"
 #include "core/figure_cache.h"
+#include "core/impulse_error.h"
 #include "core/simulation.h"
 #include "shapes/analytic_shapes.h"
 #include "shapes/whole_file.h"
