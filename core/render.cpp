@@ -30,27 +30,6 @@ Vec3 constexpr glass_colour{0.70, 0.80, 0.88};
 Vec3 constexpr edge_colour{0.10, 0.13, 0.17};
 Vec3 constexpr sun_light{2.45, 2.22, 1.92}, sky_light{0.56, 0.64, 0.78}, ground_light{0.26, 0.24, 0.22};
 
-// Value noise in the body's own frame: speckle that turns with the grain, so that rotation shows.
-double speckle(Vec3 p, std::uint32_t seed) {
-  int const x = static_cast<int>(std::floor(p.x)), y = static_cast<int>(std::floor(p.y)),
-            z = static_cast<int>(std::floor(p.z));
-  double const f[3] = {p.x - x, p.y - y, p.z - z};
-  double sum = 0;
-  for (int c = 0; c < 8; ++c) {
-    int const dx = c & 1, dy = c >> 1 & 1, dz = c >> 2;
-    double weight = 1;
-    int const bit[3] = {dx, dy, dz};
-    for (int i = 0; i < 3; ++i) {
-      double const s = f[i] * f[i] * (3 - 2 * f[i]);
-      weight *= bit[i] ? s : 1 - s;
-    }
-    sum += weight *
-           unit_noise(seed + 73856093u * static_cast<std::uint32_t>(x + dx) +
-                      19349663u * static_cast<std::uint32_t>(y + dy) + 83492791u * static_cast<std::uint32_t>(z + dz));
-  }
-  return sum;
-}
-
 Vec3 sky(Vec3 direction) {
   double const up = std::pow(std::clamp(direction.z, 0.0, 1.0), 0.45);
   return Vec3{0.86, 0.90, 0.94} * (1 - up) + Vec3{0.30, 0.48, 0.74} * up;
