@@ -7,6 +7,7 @@
 #include "core/simulation_impl.h"
 #include "kernels/base/device.h"
 #include "tests/support/cases.h"
+#include "tests/support/network_devices.h"
 #include "tests/support/same_state.h"
 
 namespace scree {
@@ -35,22 +36,7 @@ Case shower(double cohesion) {
   return c;
 }
 
-class Hybrid : public ::testing::TestWithParam<char const*> {
- protected:
-  void SetUp() override {
-    if (sdf_isa() == "generic") GTEST_SKIP() << "this CPU has no fused multiply-add: equal to float rounding only";
-    if (std::string(GetParam()) == "emulated") {
-      device_ = make_emulated_network_device();
-      return;
-    }
-    try {
-      device_ = make_cuda_network_device();
-    } catch (DeviceError const& error) {
-      GTEST_SKIP() << error.what();
-    }
-  }
-  std::shared_ptr<NetworkDevice> device_;
-};
+class Hybrid : public SameBitsOnNetworkDevices {};
 
 TEST_P(Hybrid, RunEqualsTheHostsBitForBit) {
   for (double cohesion : {0.0, 2e3}) {
@@ -70,8 +56,7 @@ TEST_P(Hybrid, RunEqualsTheHostsBitForBit) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Devices, Hybrid, ::testing::Values("emulated", "cuda"),
-                         [](auto const& info) { return std::string(info.param); });
+INSTANTIATE_TEST_SUITE_P(Devices, Hybrid, network_devices, network_device_name);
 
 }  // namespace
 }  // namespace scree

@@ -10,6 +10,7 @@
 #include "core/grain_phi.h"
 #include "core/render.h"
 #include "kernels/base/device.h"
+#include "tests/support/network_devices.h"
 #include "tests/support/shape_kinds.h"
 
 namespace scree {
@@ -119,27 +120,14 @@ TEST(GrainPhi, IsThatOfEachShapeAlone) {
   EXPECT_TRUE(phi.empty() && gradient.empty());
 }
 
-class RenderDevice : public ::testing::TestWithParam<char const*> {
+class RenderDevice : public SameBitsOnNetworkDevices {
  protected:
-  void SetUp() override {
-    if (sdf_isa() == "generic") GTEST_SKIP() << "this CPU has no fused multiply-add: equal to float rounding only";
-    if (std::string(GetParam()) == "emulated") {
-      device_ = make_emulated_network_device();
-      return;
-    }
-    try {
-      device_ = make_cuda_network_device();
-    } catch (DeviceError const& error) {
-      GTEST_SKIP() << error.what();
-    }
-  }
   // Seconds of one picture.
   static double draw(Bodies const& b, Rendering& picture) {
     auto const start = std::chrono::steady_clock::now();
     picture = render(b.header, b.frame, b.options);
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }
-  std::shared_ptr<NetworkDevice> device_;
 };
 
 TEST_P(RenderDevice, DrawsTheHostsPictureOfEveryKind) {
@@ -167,8 +155,7 @@ TEST_P(RenderDevice, DrawsTheHostsPictureOfEveryKind) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Devices, RenderDevice, ::testing::Values("emulated", "cuda"),
-                         [](auto const& info) { return std::string(info.param); });
+INSTANTIATE_TEST_SUITE_P(Devices, RenderDevice, network_devices, network_device_name);
 
 // Stands for a device: counts what it is asked, and answers nothing.
 struct LostDevice : NetworkDevice {

@@ -14,6 +14,7 @@
 #include "kernels/base/device.h"
 #include "kernels/sdf/mlp_fused.h"
 #include "kernels/sdf_queries.h"
+#include "tests/support/network_devices.h"
 #include "tests/support/random_mlp.h"
 
 namespace scree {
@@ -21,6 +22,7 @@ namespace {
 
 using test::random_code;
 using test::random_mlp;
+using testing::host_fuses;
 
 double constexpr everywhere = -std::numeric_limits<double>::infinity(), nowhere = -everywhere;
 
@@ -86,23 +88,8 @@ std::vector<int> widths(int inputs, int hidden, int layers) {
   return w;
 }
 
-// The host's instruction set rounds a b + c once, as the device does; its portable fallback rounds twice.
-bool host_fuses() { return sdf_isa() != "generic"; }
-
-class NetworkDeviceTest : public ::testing::TestWithParam<char const*> {
+class NetworkDeviceTest : public testing::OnNetworkDevices {
  protected:
-  void SetUp() override {
-    if (std::string(GetParam()) == "emulated") {
-      device_ = make_emulated_network_device();
-      return;
-    }
-    try {
-      device_ = make_cuda_network_device();
-    } catch (DeviceError const& error) {
-      GTEST_SKIP() << error.what();
-    }
-  }
-
   void expect_equal_to_host(Bodies const& bodies, int each) {
     QueryBatch host = bodies.queries(each), on_device = host, phi_only = host;
     evaluate_phi_gradient({}, bodies.view(), bodies.networks, host);
@@ -123,8 +110,6 @@ class NetworkDeviceTest : public ::testing::TestWithParam<char const*> {
     }
     EXPECT_GT(largest, 0.1);
   }
-
-  std::unique_ptr<NetworkDevice> device_;
 };
 
 TEST_P(NetworkDeviceTest, EqualsTheHostForEveryActivationWidthAndDepth) {
@@ -273,8 +258,7 @@ TEST_P(NetworkDeviceTest, RefusesNetworksThatAreTooDeep) {
   EXPECT_THROW(device_->load(bodies.view(), bodies.networks), std::invalid_argument);
 }
 
-INSTANTIATE_TEST_SUITE_P(Devices, NetworkDeviceTest, ::testing::Values("emulated", "cuda"),
-                         [](auto const& info) { return std::string(info.param); });
+INSTANTIATE_TEST_SUITE_P(Devices, NetworkDeviceTest, testing::network_devices, testing::network_device_name);
 
 TEST(CudaDevice, AbsenceIsSaidWithTheWayOut) {
   try {
