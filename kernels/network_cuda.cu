@@ -63,17 +63,29 @@ struct ThreadBlock {
   }
 };
 
+// A block's shared memory: the weights of a layer, its columns (`floats`), then the tile's lists.
+struct BlockStore {
+  float* weight;
+  float* column;
+  int* ints;
+};
+template <int W>
+__device__ BlockStore block_store(int floats) {
+  extern __shared__ float4 store[];
+  float* const weight = reinterpret_cast<float*>(store);
+  float* const column = weight + weight_floats(W);
+  return {weight, column, reinterpret_cast<int*>(column + floats)};
+}
+
 template <template <class> class Act, int W>
 __global__ void __launch_bounds__(lanes)
     fused_kernel(__grid_constant__ const Networks networks, __grid_constant__ const Queries queries,
                  Span<const Tile> tiles, int floats, int column_lanes) {
-  extern __shared__ float4 store[];
-  float* const weight = reinterpret_cast<float*>(store);
-  float* const column = weight + W * W + W;
-  int* const ints = reinterpret_cast<int*>(column + floats);
+  BlockStore const store = block_store<W>(floats);
   ThreadBlock const block;
   for (int t = static_cast<int>(blockIdx.x); t < tiles.size(); t += static_cast<int>(gridDim.x))
-    FusedTile<ThreadBlock, Act, W>(block, networks, queries, tiles[t], weight, column, ints).run(column_lanes);
+    FusedTile<ThreadBlock, Act, W>(block, networks, queries, tiles[t], store.weight, store.column, store.ints)
+        .run(column_lanes);
 }
 
 // At most `most` steps of the walks of each tile.
@@ -81,13 +93,11 @@ template <template <class> class Act, int W>
 __global__ void __launch_bounds__(lanes)
     walk_kernel(__grid_constant__ const Networks networks, __grid_constant__ const Queries queries,
                 __grid_constant__ const Walks walks, Span<const Tile> tiles, int floats, int most) {
-  extern __shared__ float4 store[];
-  float* const weight = reinterpret_cast<float*>(store);
-  float* const column = weight + W * W + W;
-  int* const ints = reinterpret_cast<int*>(column + floats);
+  BlockStore const store = block_store<W>(floats);
   ThreadBlock const block;
   for (int t = static_cast<int>(blockIdx.x); t < tiles.size(); t += static_cast<int>(gridDim.x))
-    WalkTile<ThreadBlock, Act, W>(block, networks, queries, walks, tiles[t], weight, column, ints).run(most);
+    WalkTile<ThreadBlock, Act, W>(block, networks, queries, walks, tiles[t], store.weight, store.column, store.ints)
+        .run(most);
 }
 
 struct ClassOnDevice {

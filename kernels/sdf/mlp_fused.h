@@ -82,7 +82,7 @@ inline int column_floats(int w, int hidden, bool with_gradient) {
   int const forward = tile_points * w, gradient = with_gradient ? gradient_lanes * column_rows(w, hidden) : 0;
   return forward > gradient ? forward : gradient;
 }
-inline int weight_floats(int w) { return w * w + w; }
+SCREE_HD constexpr int weight_floats(int w) { return w * w + w; }
 int constexpr shared_ints = 2 * tile_points + tile_points / 32 + 4;  // bias rows, list of active points, masks
 
 // One float as the vector of mlp_activation.h.
