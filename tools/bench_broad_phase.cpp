@@ -13,7 +13,9 @@
 #include "kernels/base/build_info.h"
 #include "kernels/broad_phase.h"
 #include "shapes/random.h"
+#include "tools/bench/google_benchmarks.h"
 #include "tools/bench/opponent_boxes.h"
+#include "tools/guarded.h"
 #include "tools/measured_on.h"
 
 namespace scree::bench {
@@ -107,13 +109,7 @@ int run(int argc, char** argv) {
   benchmark::AddCustomContext("commit", build_info().commit);
   benchmark::AddCustomContext("compiler", build_info().compiler);
   benchmark::AddCustomContext("machine", cpu_name());
-  std::vector<std::string> flags = app.remaining();
-  flags.insert(flags.begin(), argv[0]);
-  std::vector<char*> pointers;
-  for (auto& f : flags) pointers.push_back(f.data());
-  int count = static_cast<int>(pointers.size());
-  benchmark::Initialize(&count, pointers.data());
-  if (benchmark::ReportUnrecognizedArguments(count, pointers.data())) return 2;
+  if (!take_benchmark_flags(argv[0], app.remaining())) return exit_bad_input;
   benchmark::RunSpecifiedBenchmarks();
   return 0;
 }
@@ -122,10 +118,5 @@ int run(int argc, char** argv) {
 }  // namespace scree::bench
 
 int main(int argc, char** argv) {
-  try {
-    return scree::bench::run(argc, argv);
-  } catch (std::exception const& e) {
-    fmt::print(stderr, "bench_broad_phase: {}\n", e.what());
-    return 1;
-  }
+  return scree::guarded("bench_broad_phase", [&] { return scree::bench::run(argc, argv); });
 }

@@ -14,6 +14,7 @@
 #include "kernels/base/build_info.h"
 #include "shapes/model_file.h"
 #include "shapes/random.h"
+#include "tools/guarded.h"
 
 namespace scree::bench {
 namespace {
@@ -110,10 +111,5 @@ int main(int argc, char** argv) {
   app.add_option("--seed", o.seed, "of the codes");
   app.add_option("-o,--output", o.output, "JSON file");
   CLI11_PARSE(app, argc, argv);
-  try {
-    return scree::bench::run(o);
-  } catch (std::exception const& e) {
-    fmt::print(stderr, "bench_memory: {}\n", e.what());
-    return 1;
-  }
+  return scree::guarded("bench_memory", [&] { return scree::bench::run(o); });
 }

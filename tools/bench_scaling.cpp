@@ -13,6 +13,7 @@
 #include "core/process_memory.h"
 #include "kernels/base/build_info.h"
 #include "kernels/sdf/sdf_batch.h"
+#include "tools/guarded.h"
 #include "tools/measured_on.h"
 #include "tools/pile_tiles.h"
 #include "tools/step_meter.h"
@@ -204,10 +205,5 @@ int main(int argc, char** argv) {
   app.add_option("--limit", o.limit, "largest ratio allowed above --reference grains; 0: any");
   app.add_option("-o,--output", o.output, "JSON file");
   CLI11_PARSE(app, argc, argv);
-  try {
-    return scree::bench::run(o);
-  } catch (std::exception const& e) {
-    fmt::print(stderr, "bench_scaling: {}\n", e.what());
-    return 1;
-  }
+  return scree::guarded("bench_scaling", [&] { return scree::bench::run(o); });
 }

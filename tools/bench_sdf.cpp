@@ -14,7 +14,9 @@
 
 #include "kernels/base/build_info.h"
 #include "kernels/sdf/sdf_batch.h"
+#include "tools/bench/google_benchmarks.h"
 #include "tools/bench/opponents.h"
+#include "tools/guarded.h"
 #include "tools/measured_on.h"
 
 namespace scree::bench {
@@ -326,12 +328,8 @@ int run(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
 
   std::vector<std::string> flags = app.remaining();
-  flags.insert(flags.begin(), {argv[0], "--benchmark_enable_random_interleaving=true"});
-  std::vector<char*> pointers;
-  for (auto& f : flags) pointers.push_back(f.data());
-  int count = static_cast<int>(pointers.size());
-  benchmark::Initialize(&count, pointers.data());
-  if (benchmark::ReportUnrecognizedArguments(count, pointers.data())) return 2;
+  flags.insert(flags.begin(), "--benchmark_enable_random_interleaving=true");
+  if (!take_benchmark_flags(argv[0], flags)) return exit_bad_input;
 #if defined(SCREE_BENCH_TORCH)
   use_one_thread();
 #endif
@@ -351,10 +349,5 @@ int run(int argc, char** argv) {
 }  // namespace scree::bench
 
 int main(int argc, char** argv) {
-  try {
-    return scree::bench::run(argc, argv);
-  } catch (std::exception const& e) {
-    fmt::print(stderr, "bench_sdf: {}\n", e.what());
-    return 1;
-  }
+  return scree::guarded("bench_sdf", [&] { return scree::bench::run(argc, argv); });
 }

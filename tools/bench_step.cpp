@@ -16,6 +16,8 @@
 #include "core/results.h"
 #include "kernels/base/build_info.h"
 #include "kernels/sdf/sdf_batch.h"
+#include "tools/bench/google_benchmarks.h"
+#include "tools/guarded.h"
 #include "tools/measured_on.h"
 #include "tools/step_meter.h"
 
@@ -171,12 +173,8 @@ int run(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
 
   std::vector<std::string> flags = app.remaining();
-  flags.insert(flags.begin(), {argv[0], "--benchmark_enable_random_interleaving=true"});
-  std::vector<char*> pointers;
-  for (auto& f : flags) pointers.push_back(f.data());
-  int count = static_cast<int>(pointers.size());
-  benchmark::Initialize(&count, pointers.data());
-  if (benchmark::ReportUnrecognizedArguments(count, pointers.data())) return 2;
+  flags.insert(flags.begin(), "--benchmark_enable_random_interleaving=true");
+  if (!take_benchmark_flags(argv[0], flags)) return exit_bad_input;
 
   Contest contest(o);
   for (SteppedScene& s : contest.subjects())
@@ -205,10 +203,5 @@ int run(int argc, char** argv) {
 }  // namespace scree::bench
 
 int main(int argc, char** argv) {
-  try {
-    return scree::bench::run(argc, argv);
-  } catch (std::exception const& e) {
-    fmt::print(stderr, "bench_step: {}\n", e.what());
-    return 1;
-  }
+  return scree::guarded("bench_step", [&] { return scree::bench::run(argc, argv); });
 }

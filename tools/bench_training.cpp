@@ -7,6 +7,7 @@
 
 #include "kernels/base/build_info.h"
 #include "shapes/analytic_shapes.h"
+#include "tools/guarded.h"
 #include "tools/measured_on.h"
 #include "training/train.h"
 
@@ -61,10 +62,5 @@ int main(int argc, char** argv) {
   app.add_option("--threads", o.train.threads, "threads")->check(CLI::Range(1, 256));
   app.add_option("-o,--output", o.output, "JSON file");
   CLI11_PARSE(app, argc, argv);
-  try {
-    return scree::bench::run(o);
-  } catch (std::exception const& e) {
-    fmt::print(stderr, "bench_training: {}\n", e.what());
-    return 1;
-  }
+  return scree::guarded("bench_training", [&] { return scree::bench::run(o); });
 }

@@ -1,5 +1,4 @@
-// guarded.h: the border of scree-shape and scree-train: what went wrong becomes one message and an exit code.
-// Codes as in tools/README.md.
+// guarded.h: what goes wrong in scree-shape, scree-train and the benchmarks: one message, an exit code.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -11,6 +10,7 @@
 
 namespace scree {
 
+// As in tools/README.md.
 enum ExitCode : int { exit_ok = 0, exit_bad_input = 2, exit_file = 4 };
 
 // Runs `work` and returns its exit code. std::invalid_argument is bad input; everything else thrown is a file or the
