@@ -1,5 +1,5 @@
-// rattleback_entries.cpp: row 17 of the book: a rattleback spun the wrong way turns round, spun the other way it does
-// not. SPDX-License-Identifier: Apache-2.0
+// rattleback_entries.cpp: row 17 of the book: a rattleback spun the wrong way turns round, the other way it does not.
+// SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
 #include <algorithm>
