@@ -2,22 +2,24 @@
 # SPDX-License-Identifier: Apache-2.0
 """Settle superellipsoids in a square box of infinite planes and write what has become of them.
 
-Arguments: poses.csv out.csv diameter [m] width [m] density [kg/m3] kn [N/m] ks [N/m] friction [-] seconds [s].
+Arguments: poses.csv out.csv diameter [m] width [m] density [kg/m3] kn [N/m] ks [N/m] friction [-] damping rate [1/s]
+seconds [s].
 poses.csv: x,y,z,qw,qx,qy,qz (body to world), one grain a line below a header. Semi-axis ratios 1 : 0.8 : 0.6, both exponents
 0.6, equal-volume sphere of the diameter. out.csv: name,value lines.
 
 Contacts are those of Duriez & Bonnet (2021): one point a pair, the deepest of the surface nodes, F = kn overlap, Coulomb
-friction. Yade offers no viscous damping for them, so its local damping (0.3) takes the energy.
+friction. Yade offers no viscous damping for them, and its local damping has no like elsewhere: velocities and spins decay by
+exp(-rate t) instead.
 """
 import csv
 import math
 import sys
 
 from yade import config
-from yade.utils import levelSetBody, wall
+from yade.utils import levelSetBody, unbalancedForce, wall
 
 poses, out = sys.argv[1:3]
-diameter, width, density, kn, ks, friction, seconds = (float(v) for v in sys.argv[3:10])
+diameter, width, density, kn, ks, friction, rate, seconds = (float(v) for v in sys.argv[3:11])
 if 'LS_DEM' not in config.features:
     sys.exit('this Yade has no LS_DEM')
 
@@ -51,8 +53,20 @@ O.engines = [
     InteractionLoop([Ig2_LevelSet_LevelSet_ScGeom(), Ig2_Wall_LevelSet_ScGeom()],
                     [Ip2_FrictMat_FrictMat_FrictPhys(kn=MatchMaker(algo='val', val=kn), ks=MatchMaker(algo='val', val=ks))],
                     [Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)]),
-    NewtonIntegrator(damping=0.3, gravity=(0, 0, -GRAVITY)),
+    NewtonIntegrator(damping=0, gravity=(0, 0, -GRAVITY)),
+    PyRunner(command='decay()', iterPeriod=1),
 ]
+
+
+def decay():
+    keep = math.exp(-rate * O.dt)
+    for i in grains:
+        state = O.bodies[i].state
+        state.vel *= keep
+        state.angVel *= keep
+        state.angMom *= keep
+
+
 mass = density * math.pi / 6 * diameter**3
 O.dt = 0.1 * math.sqrt(mass / kn)
 O.run(int(seconds / O.dt), True)
@@ -76,6 +90,7 @@ figures = {
     'coordination_grains': 2 * between / len(bodies),
     'coordination': (2 * between + walls) / len(bodies),
     'overlap': overlap / diameter,
+    'unbalanced': unbalancedForce(),
     'kinetic_per_grain': kinetic / len(bodies) / (mass * GRAVITY * diameter),
     'mass_ratio': bodies[0].state.mass / mass,
     'steps': O.iter,
