@@ -15,27 +15,16 @@
 #include "tests/support/cases.h"
 #include "tests/support/measures.h"
 #include "tests/validation/book.h"
+#include "tests/validation/loose_bed.h"
 
 namespace scree::book {
 namespace {
 
 using namespace testing;
 
-double constexpr d = 0.01, gravity = 9.81;  // [m], [m/s2]
+double constexpr d = bed_d, gravity = bed_gravity;
 double constexpr weight = 2650 * M_PI / 6 * d * d * d * gravity;
 double constexpr filled = 0.6;  // share of a poured bed that is grain, to count grains with
-
-// Soft spheres: neither flow nor packing asks for stiff ones. The deepest contacts of a bed 26 d high carry some tenths
-// of a newton, 4 % d.
-Case soft_spheres(double friction) {
-  Case c = rock_case();
-  c.gravity = Vec3{0, 0, -gravity};
-  c.contact[0].kappa = 2e8;
-  if (friction > 0) c.contact[0].friction = friction;
-  c.contact[0].damping_ratio = 0.5;
-  c.time.step = 1e-4;
-  return c;
-}
 
 // Layers of a loose cubic grid over |x|, |y| <= half (and within `radius` of the axis), from z = 0.6 d up.
 GrainsCase grid_of(double half, double radius, int count, std::uint64_t seed) {
@@ -61,7 +50,7 @@ struct Flow {
 
 // A square silo with a round hole of diameter D in its flat bottom, open from the start.
 Flow discharge(double orifice, double width, int count, double from, double until) {
-  Case c = soft_spheres(0.5);
+  Case c = soft_grains(0.5);
   c.grains = {grid_of(width / 2, width, count, 1)};
   WallCase sides = open_box({-width / 2, -width / 2, -1}, {width / 2, width / 2, 1});
   sides.open = {"-z", "+z"};
@@ -131,7 +120,7 @@ TEST(Validation, Row14BeverlooFlow) {
 // Share of the column's weight that the floor carries while it sinks slowly, so that the walls give what friction they
 // have (at rest the share depends on how the silo was filled).
 double share_on_floor(int count, double radius, double friction, double end) {
-  Case c = soft_spheres(friction);
+  Case c = soft_grains(friction);
   c.time.step = 2e-4;  // slow: no impacts
   c.grains = {grid_of(radius, radius, count, 2)};
   WallCase bore;
@@ -184,7 +173,7 @@ TEST(Validation, Row15SpherePacking) {
   int const count = full() ? 2400 : 450;
   double before = 1;
   for (double friction : {0.0, 0.5}) {
-    Case c = soft_spheres(friction);
+    Case c = soft_grains(friction);
     c.grains = {grid_of(half, 2 * half, count, 3)};
     c.wall = {open_box({-half, -half, 0}, {half, half, 1})};
     c.damping = DampingCase{2};
