@@ -34,7 +34,7 @@ void energy_of_approach(Entry& book, std::string const& name, GrainsCase const& 
   double const reach = 2 * impl.scene.shape[impl.scene.shape_of[0]].bounding_radius * d;
   std::mt19937 random(5);
   std::uniform_real_distribution<double> u(-1, 1);
-  int const steps = full() ? 200 : 40, ways = full() ? 40 : 4;
+  int const steps = full() ? 100 : 40, ways = full() ? 12 : 4;
   double worst = 0, turned_over_at = 0;
   for (int way = 0; way < ways; ++way) {
     // Along an axis with like poses first, then along random directions at random poses.
