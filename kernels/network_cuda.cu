@@ -6,10 +6,10 @@
 #include <cmath>
 #include <vector>
 
-#include "kernels/base/cuda_buffer.h"
-#include "kernels/base/device.h"
 #include "kernels/base/profile.h"
+#include "kernels/cuda_block.h"
 #include "kernels/network_device.h"
+#include "kernels/network_tensor.h"
 #include "kernels/sdf/network_image.h"
 #include "kernels/walk_tile.h"
 
@@ -17,51 +17,6 @@ namespace scree {
 namespace {
 
 using namespace sdf_fused;
-
-// The lanes of a CUDA thread block. Bodies are empty in the host pass, which never runs them.
-struct ThreadBlock {
-  template <class Step>
-  SCREE_HD void each(Step const& step) const {
-#if defined(__CUDA_ARCH__)
-    step(static_cast<int>(threadIdx.x));
-#endif
-  }
-  SCREE_HD void sync() const {
-#if defined(__CUDA_ARCH__)
-    __syncthreads();
-#endif
-  }
-  // In the order of Lanes::compact: masks of 32 positions, then each lane's place among them.
-  template <class Flag>
-  SCREE_HD int compact(Flag const& flag, int* list, int* masks) const {
-    int total = 0;
-#if defined(__CUDA_ARCH__)
-    int const lane = static_cast<int>(threadIdx.x);
-    bool wanted[points_a_lane];
-    __syncthreads();  // phi of all lanes is written
-    for (int p = 0; p < points_a_lane; ++p) {
-      int const i = p * lanes + lane;
-      wanted[p] = flag(i);
-      unsigned const mask = __ballot_sync(0xffffffffu, wanted[p]);
-      if (lane % 32 == 0) masks[i / 32] = static_cast<int>(mask);
-    }
-    __syncthreads();
-    int before[points_a_lane] = {};
-    for (int word = 0; word < tile_points / 32; ++word) {
-      for (int p = 0; p < points_a_lane; ++p)
-        if ((p * lanes + lane) / 32 == word) before[p] = total;
-      total += __popc(static_cast<unsigned>(masks[word]));
-    }
-    for (int p = 0; p < points_a_lane; ++p) {
-      int const i = p * lanes + lane;
-      unsigned const lower = static_cast<unsigned>(masks[i / 32]) & ((1u << (lane % 32)) - 1u);
-      if (wanted[p]) list[before[p] + __popc(lower)] = i;
-    }
-    __syncthreads();
-#endif
-    return total;
-  }
-};
 
 // A block's shared memory: the weights of a layer, its columns (`floats`), then the tile's lists.
 struct BlockStore {
@@ -104,6 +59,9 @@ struct ClassOnDevice {
   CudaBuffer<NetworkRecord> net;
   CudaBuffer<float> weight, bias;
   CudaBuffer<Tile> tiles;
+  TensorsOnDevice tensors;  // unless in fp32
+
+  Networks networks() const { return {net.span(), weight.data(), bias.data()}; }
 };
 
 class CudaNetworks : public NetworkDevice {
@@ -123,8 +81,12 @@ class CudaNetworks : public NetworkDevice {
 
   std::string describe() const override { return scree::describe(device_); }
 
-  void load(SceneView const& scene, NetworkSet const& networks) override {
+  using NetworkDevice::load;
+  void load(SceneView const& scene, NetworkSet const& networks, Precision precision) override {
     image_ = make_network_image(scene, networks);
+    precision_ = precision;
+    std::vector<TensorClass> tensors;
+    if (precision != Precision::fp32) tensors = make_tensor_image(scene, image_);
     classes_.clear();
     classes_.resize(image_.classes.size());
     for (std::size_t c = 0; c < classes_.size(); ++c) {
@@ -132,6 +94,7 @@ class CudaNetworks : public NetworkDevice {
       classes_[c].net.upload(from.net, stream_);
       classes_[c].weight.upload(from.weight, stream_);
       classes_[c].bias.upload(from.bias, stream_);
+      if (!tensors.empty()) classes_[c].tensors.upload(tensors[c], stream_);
     }
     frame_.upload(image_.frame, stream_);
     lipschitz_.upload(image_.lipschitz, stream_);
@@ -156,8 +119,16 @@ class CudaNetworks : public NetworkDevice {
     auto const tiles = tiles_of(image_, batch.group);
     for (std::size_t c = 0; c < tiles.size(); ++c) classes_[c].tiles.upload(tiles[c], stream_);
     check_cuda(cudaEventRecord(before_, stream_), "sdf_net/device");
-    for (std::size_t c = 0; c < tiles.size(); ++c)
-      if (!tiles[c].empty()) dispatch<Launch>(image_.classes[c], *this, image_.classes[c], classes_[c], queries);
+    for (std::size_t c = 0; c < tiles.size(); ++c) {
+      if (tiles[c].empty()) continue;
+      NetworkClass const& of = image_.classes[c];
+      ClassOnDevice const& data = classes_[c];
+      if (precision_ == Precision::fp32)
+        dispatch<Launch>(of, *this, of, data, queries);
+      else
+        launch_tensor_tiles(device_, stream_, of, data.tensors.view(data.bias.data()), precision_, queries,
+                            data.tiles.span());
+    }
     check_cuda(cudaEventRecord(after_, stream_), "sdf_net/device");
     phi_.download(Span<double>(batch.phi).subspan(0, n), stream_);
     // Gradients nobody asked for come back as they were the step before; nobody reads them.
@@ -200,30 +171,16 @@ class CudaNetworks : public NetworkDevice {
   }
 
  private:
-  // A class's tiles, as many blocks as the device holds at once. `arguments`: of the kernel behind the networks.
-  template <class Kernel, class... Arguments>
-  void launch(char const* what, Kernel kernel, int w, int floats, ClassOnDevice const& data,
-              Arguments const&... arguments) const {
-    std::size_t const bytes = sizeof(float) * (weight_floats(w) + floats) + sizeof(int) * shared_ints;
-    if (bytes > device_.shared_memory)
-      throw DeviceError("the network kernel needs " + std::to_string(bytes) + " bytes of shared memory a block; " +
-                        device_.name + " has " + std::to_string(device_.shared_memory));
-    check_cuda(cudaFuncSetAttribute(kernel, cudaFuncAttributeMaxDynamicSharedMemorySize, static_cast<int>(bytes)),
-               std::string(what) + ": this build holds no code for the device's chip");
-    int blocks = 0;
-    check_cuda(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&blocks, kernel, lanes, bytes), "occupancy");
-    int const grid = std::min(data.tiles.size(), std::max(1, blocks) * device_.multiprocessors);
-    kernel<<<grid, lanes, bytes, stream_>>>(Networks{data.net.span(), data.weight.data(), data.bias.data()},
-                                            arguments...);
-    check_cuda(cudaGetLastError(), std::string(what) + ": launch");
+  static std::size_t shared_bytes(int w, int floats) {
+    return sizeof(float) * (weight_floats(w) + floats) + sizeof(int) * shared_ints;
   }
   struct Launch {
     template <template <class> class Act, int W>
     static void run(CudaNetworks const& self, NetworkClass const& of, ClassOnDevice const& data,
                     Queries const& queries) {
       int const floats = column_floats(W, of.hidden, !queries.gradient.empty());
-      self.launch("sdf_net/device", fused_kernel<Act, W>, W, floats, data, queries, data.tiles.span(), floats,
-                  gradient_lanes);
+      launch_tiles("sdf_net/device", self.device_, self.stream_, fused_kernel<Act, W>, shared_bytes(W, floats),
+                   data.tiles.size(), data.networks(), queries, data.tiles.span(), floats, gradient_lanes);
     }
   };
   struct LaunchWalks {
@@ -231,8 +188,8 @@ class CudaNetworks : public NetworkDevice {
     static void run(CudaNetworks const& self, NetworkClass const& of, ClassOnDevice const& data, Queries const& queries,
                     Walks const& walks, int most) {
       int const floats = column_floats(W, of.hidden, false);
-      self.launch("sdf_net/walk", walk_kernel<Act, W>, W, floats, data, queries, walks, data.tiles.span(), floats,
-                  most);
+      launch_tiles("sdf_net/walk", self.device_, self.stream_, walk_kernel<Act, W>, shared_bytes(W, floats),
+                   data.tiles.size(), data.networks(), queries, walks, data.tiles.span(), floats, most);
     }
   };
 
@@ -240,6 +197,7 @@ class CudaNetworks : public NetworkDevice {
   cudaStream_t stream_ = nullptr;
   cudaEvent_t before_ = nullptr, after_ = nullptr;
   NetworkImage image_;
+  Precision precision_ = Precision::fp32;
   std::vector<ClassOnDevice> classes_;
   CudaBuffer<NetworkFrame> frame_;
   CudaBuffer<int> shape_of_, partner_, step_;

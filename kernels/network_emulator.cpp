@@ -6,6 +6,7 @@
 #include "kernels/base/profile.h"
 #include "kernels/network_device.h"
 #include "kernels/sdf/network_image.h"
+#include "kernels/tensor_emulator.h"
 #include "kernels/walk_tile.h"
 
 namespace scree {
@@ -54,8 +55,12 @@ struct RunWalks {
 class EmulatedDevice : public NetworkDevice {
  public:
   std::string describe() const override { return "the device kernel, emulated on the host"; }
-  void load(SceneView const& scene, NetworkSet const& networks) override {
+  using NetworkDevice::load;
+  void load(SceneView const& scene, NetworkSet const& networks, Precision precision) override {
     image_ = make_network_image(scene, networks);
+    precision_ = precision;
+    tensors_.clear();
+    if (precision != Precision::fp32) tensors_ = make_tensor_image(scene, image_);
   }
   void evaluate(Queue const& queue, QueryBatch& batch, double gradient_from) override {
     ScopedTimer const timer(queue.profile, "sdf_net/device", batch.group[image_.class_of.size()]);
@@ -70,8 +75,13 @@ class EmulatedDevice : public NetworkDevice {
                           std::isinf(gradient_from) && gradient_from > 0 ? Span<Vec3>() : Span<Vec3>(batch.gradient)};
     auto const start = std::chrono::steady_clock::now();
     auto const tiles = tiles_of(image_, batch.group);
-    for (std::size_t c = 0; c < tiles.size(); ++c)
-      dispatch<RunTiles>(image_.classes[c], image_.classes[c], queries, tiles[c]);
+    for (std::size_t c = 0; c < tiles.size(); ++c) {
+      NetworkClass const& of = image_.classes[c];
+      if (precision_ == Precision::fp32)
+        dispatch<RunTiles>(of, of, queries, tiles[c]);
+      else
+        run_tensor_tiles(of, tensors_[c], precision_, queries, tiles[c]);
+    }
     seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }
   void walk(Queue const& queue, WalkBatch& batch, int most) override {
@@ -92,6 +102,8 @@ class EmulatedDevice : public NetworkDevice {
 
  private:
   NetworkImage image_;
+  Precision precision_ = Precision::fp32;
+  std::vector<TensorClass> tensors_;
   double seconds_ = 0;
 };
 

@@ -161,7 +161,7 @@ INSTANTIATE_TEST_SUITE_P(Devices, RenderDevice, network_devices, network_device_
 struct LostDevice : NetworkDevice {
   int loads = 0, batches = 0;
   std::string describe() const override { return "lost"; }
-  void load(SceneView const&, NetworkSet const&) override { ++loads; }
+  void load(SceneView const&, NetworkSet const&, Precision) override { ++loads; }
   void evaluate(Queue const&, QueryBatch&, double) override {
     ++batches;
     throw DeviceError("lost");
