@@ -15,6 +15,7 @@
 #include "core/case_measure.h"
 #include "kernels/base/vec.h"
 #include "kernels/contact_laws.h"
+#include "kernels/network_device.h"
 #include "shapes/bake.h"
 #include "shapes/generate.h"
 
@@ -198,6 +199,11 @@ struct RelaxCase {
   int passes = 5000;      // more: refused
 };
 
+// Networks on a GPU; the CPU evaluates them in fp32 whatever is said here.
+struct DeviceCase {
+  Precision precision = Precision::fp32;
+};
+
 struct OutputCase {
   double every = 0.02;  // [s]
   bool paraview = false;
@@ -241,6 +247,7 @@ struct Case {
   std::vector<GrainsCase> grains;
   std::vector<WallCase> wall;
   std::vector<MeasureCase> measure;
+  std::optional<DeviceCase> device;  // absent: fp32
   OutputCase output;
   std::optional<CheckpointCase> checkpoint;
   std::optional<RelaxCase> relax;  // absent: grains start where they are put

@@ -255,6 +255,12 @@ CaseKey constexpr table[] = {
     {"relax.travel", "(0, 0.1]", "", "furthest way of any point in one pass [d]"},
     {"relax.passes", "[1, 1e6]", "", "where more are needed there is no room, and the case is refused"},
 
+    {"device", "", "fp32", "how networks on a GPU compute, see [Precision](#precision)"},
+    {"device.precision", "", "",
+     "`\"fp32\"`: the CPU's bits; `\"fp16x3\"`: tensor cores, within 1e-6 d of it; `\"fast\"`: one pass in half "
+     "precision. The CPU "
+     "computes in fp32 and says so"},
+
     {"output", "", "", "what is written"},
     {"output.every", "(0, inf)", "", "time between frames [s]"},
     {"output.paraview", "", "", "also write `paraview/` while running"},

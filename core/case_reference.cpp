@@ -39,6 +39,7 @@ wall = [
   { kind = "capsule" }, { kind = "mesh" }, { kind = "terrain" },
 ]
 accuracy = {}
+device = {}
 output = {}
 checkpoint = {}
 limits = {}

@@ -14,6 +14,12 @@
 namespace scree {
 namespace {
 
+void read_device(CaseReader r, DeviceCase& out) {
+  using P = Precision;
+  r.choice<P>("precision", out.precision, {{"fp32", P::fp32}, {"fp16x3", P::fp16x3}, {"fast", P::fast}});
+  r.finish();
+}
+
 void read_output(CaseReader r, OutputCase& out) {
   r.number("every", out.every);
   r.boolean("paraview", out.paraview);
@@ -81,6 +87,7 @@ double budget_of(AccuracyPreset preset) {
 
 void read_run(CaseReader& root, Case& out) {
   if (auto accuracy = root.table("accuracy")) read_accuracy(*accuracy, out.accuracy.emplace());
+  if (auto device = root.table("device")) read_device(*device, out.device.emplace());
   if (auto output = root.table("output")) read_output(*output, out.output);
   if (auto checkpoint = root.table("checkpoint")) read_checkpoint(*checkpoint, out.checkpoint.emplace());
   if (auto limits = root.table("limits")) read_limits(*limits, out.limits);
@@ -137,6 +144,7 @@ std::string run_to_toml(Case const& c) {
                               : fmt::format("\n[accuracy]\npreset = \"{}\"\n", to_string(c.accuracy->preset));
     if (c.accuracy->overlap) out += fmt::format("overlap = {}  # [d]\n", *c.accuracy->overlap);
   }
+  if (c.device) out += fmt::format("\n[device]\nprecision = \"{}\"\n", to_string(c.device->precision));
   out += fmt::format("\n[output]\nevery = {}  # [s]\nparaview = {}\n", c.output.every, c.output.paraview);
   if (c.checkpoint)
     out += fmt::format("\n[checkpoint]\nevery = {}  # [s]\nkeep = {}\n", c.checkpoint->every, c.checkpoint->keep);

@@ -29,7 +29,7 @@ Simulation::Impl::Impl(Case const& c_, SimulationOptions const& options_, Frame 
   Placement placement;
   scene = build_scene(c, queue.threads, placement);
   if (options.network_device) {
-    options.network_device->load(scene.view(), scene.networks);
+    options.network_device->load(scene.view(), scene.networks, c.device ? c.device->precision : Precision::fp32);
     scene.networks.device = options.network_device;
   }
   effects = effects_of(c, scene);

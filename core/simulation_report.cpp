@@ -120,6 +120,14 @@ Plan Simulation::plan() const {
         b.record / b.grains, b.host / b.grains));
   for (std::string& note : insertion_notes(s.c)) plan.notes.push_back(std::move(note));
   if (s.c.replicas > 1) plan.notes.push_back(replica_note(s.c));
+  if (s.c.device && plan.networks > 0) {
+    std::string const precision = to_string(s.c.device->precision);
+    plan.notes.push_back(s.options.network_device ? "networks on the GPU in " + precision
+                         : s.c.device->precision == Precision::fp32
+                             ? "networks on the CPU in fp32"
+                             : "device.precision = \"" + precision +
+                                   "\" is for networks on a GPU; without one they are evaluated on the CPU, in fp32");
+  }
   if (plan.bodies == 0) plan.notes.push_back("the case has no grains");
   if (std::isfinite(s.estimate.critical)) {
     double const share = s.state.time_step / s.estimate.critical;

@@ -153,6 +153,21 @@ TEST_F(CaseFile, Relax) {
   expect_one(refused(with(text, "passes = 40", "travel = 0.5")), {"relax.travel: 0.5 is out of range"});
 }
 
+TEST_F(CaseFile, DevicePrecision) {
+  for (auto [word, precision] : {std::pair("fp32", Precision::fp32), std::pair("fp16x3", Precision::fp16x3),
+                                 std::pair("fast", Precision::fast)}) {
+    std::string const text = std::string(minimal) + "[device]\nprecision = \"" + word + "\"\n";
+    for (Case const& c : {load(text), load(to_toml(load(text)))}) {
+      ASSERT_TRUE(c.device);
+      EXPECT_EQ(c.device->precision, precision);
+    }
+  }
+  EXPECT_FALSE(load(minimal).device);
+  EXPECT_EQ(to_toml(load(minimal)).find("device"), std::string::npos);
+  expect_one(refused(std::string(minimal) + "[device]\nprecision = \"half\"\n"),
+             {"device.precision", "half", "fp16x3"});
+}
+
 TEST_F(CaseFile, EffectsOnBodies) {
   std::string const text = std::string(minimal) +
                            "[drag]\ndensity = 1.2\ncoefficient = 0.5\nfluid_velocity = [1, 0, 0]\n[damping]\nrate = "
