@@ -1,5 +1,5 @@
-// bench_device.cpp: queries per second of the device's network kernel by the device's own clock, as a share of the peak
-// measured in the same run, against level-set lookups on the same points, and its results against the host's.
+// bench_device.cpp: queries per second of the device's network kernels by the device's own clock, as a share of the
+// fp32 peak measured in the same run, against level-set lookups on the same points; their results against the host's.
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/core.h>
 #include <fmt/os.h>
@@ -24,6 +24,7 @@ double constexpr radius = 0.8;  // of the bodies' balls; the networks' unit is t
 struct Options {
   std::string device = "cuda", output;
   int queries = 4'000'000, rounds = 9, shapes = 400;
+  double filtered = 1e8;
 };
 
 double median(std::vector<double> v) {
@@ -42,6 +43,14 @@ Mlp random_net(Activation activation, double parameter, std::vector<int> width, 
     for (auto& w : net.weight.emplace_back(in * out)) w = weight(random);
     for (auto& b : net.bias.emplace_back(out)) b = bias(random);
   }
+  return net;
+}
+
+// The same, with phi = 0 somewhere in the ball: moved by its median along an axis.
+Mlp with_surface(Mlp net) {
+  std::vector<double> phi;
+  for (int i = 0; i < 101; ++i) phi.push_back(evaluate_reference(net, net.bias[0], {0, 0, radius * (i / 50.0 - 1)}));
+  net.bias.back()[0] -= static_cast<float>(median(phi));
   return net;
 }
 
@@ -82,8 +91,9 @@ struct Scene {
     v.shape = shape, v.shape_of = shape_of, v.diameter = diameter;
     return v;
   }
-  void fill(int queries) {
-    std::mt19937 random(2);
+  void fill(int queries, unsigned seed = 2) {
+    std::mt19937 random(seed);
+    batch.point.clear(), batch.partner.clear();
     std::uniform_real_distribution<double> uniform(-radius, radius);
     int const bodies = static_cast<int>(shape_of.size());
     batch.group.assign(query_groups(static_cast<int>(networks.net.size())) + 1, 0);
@@ -140,6 +150,54 @@ double difference(Scene& scene) {
   return largest;
 }
 
+// Points within 2e-2 d of the surface, and those inside that the fp16 filter rejected. Each round: random points, two
+// Newton steps to a random level of phi, then all with fp16x3, and through the filter.
+struct Rejections {
+  double asked = 0, inside = 0, falsely = 0;
+};
+Rejections false_rejections(NetworkDevice& device, Scene& scene, Options const& o) {
+  Rejections found;
+  double constexpr reach = 2e-2;
+  for (unsigned round = 0; found.asked < o.filtered; ++round) {
+    scene.fill(o.queries, 100 + round);
+    QueryBatch& batch = scene.batch;
+    std::mt19937 random(round);
+    std::uniform_real_distribution<double> level(-reach, reach);
+    for (int step = 0; step < 2; ++step) {
+      device.evaluate({}, batch, everywhere);
+      for (std::size_t i = 0; i < batch.point.size(); ++i) {
+        Vec3 const g = batch.gradient[i];
+        Vec3 const moved = batch.point[i] + g * ((level(random) - batch.phi[i]) / std::max(norm2(g), 1e-2));
+        if (norm(moved) < radius) batch.point[i] = moved;
+      }
+    }
+    device.evaluate({}, batch, everywhere);
+    std::vector<double> const exact = batch.phi;
+    device.evaluate({}, batch, 0);
+    double near = 0;
+    for (std::size_t i = 0; i < exact.size(); ++i) {
+      near += std::abs(exact[i]) < reach;
+      found.inside += exact[i] > 0;
+      found.falsely += exact[i] > 0 && batch.phi[i] != exact[i];
+    }
+    if (near == 0) throw std::runtime_error("no point came near a surface");
+    found.asked += near;
+  }
+  return found;
+}
+
+// Root mean square error of phi against the double reference, for a scene of one network without a code.
+double error_of_phi(Scene const& scene, Mlp const& net) {
+  std::size_t const n = std::min<std::size_t>(scene.batch.point.size(), 20'000);
+  double sum = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    double const e =
+        scene.batch.phi[i] - evaluate_reference(net, net.bias[0], to_double(to_float(scene.batch.point[i])));
+    sum += e * e;
+  }
+  return std::sqrt(sum / static_cast<double>(n));
+}
+
 // The grids of 43^3 points over the ball's cube that the networks' values fill.
 double grid_rate(Scene& scene, int rounds) {
   GridFrame frame;
@@ -181,6 +239,8 @@ int run(int argc, char** argv) {
   app.add_option("--queries", o.queries, "points a launch")->check(CLI::Range(1000, 100'000'000));
   app.add_option("--shapes", o.shapes, "different shapes against as many grids")->check(CLI::Range(1, 10'000));
   app.add_option("--rounds", o.rounds, "launches of each subject")->check(CLI::Range(1, 1000));
+  app.add_option("--filtered", o.filtered, "points near a surface that the fp16 filter is tried with")
+      ->check(CLI::Range(1.0, 1e12));
   app.add_option("--output", o.output, "write the medians as JSON");
   CLI11_PARSE(app, argc, argv);
 
@@ -189,22 +249,40 @@ int run(int argc, char** argv) {
   double const peak = on_device ? measure_device_peak() : std::numeric_limits<double>::quiet_NaN();
   std::vector<Subject> subjects;
   std::vector<Gate> gates;
-  double worst = 0;
+  double worst = 0, worst_tensor = 0;
   std::vector<int> const plain{3, 40, 40, 40, 40, 40, 1}, coded{13, 40, 40, 40, 40, 40, 1};
   for (auto const& [activation, parameter] :
        {std::pair(Activation::leaky_relu, 0.01), std::pair(Activation::sine, 5.0)}) {
     Scene scene;
-    Mlp const net = random_net(activation, parameter, plain, 1);
+    Mlp const net = with_surface(random_net(activation, parameter, plain, 1));
     scene.add(net, 1);
     scene.fill(o.queries);
     device->load(scene.view(), scene.networks);
     double const forward = rate(*device, scene, nowhere, o.rounds),
                  gradient = rate(*device, scene, everywhere, o.rounds);
     worst = std::max(worst, difference(scene));
+    double const fp32_error = error_of_phi(scene, net);
     std::string const name = to_string(activation);
     subjects.push_back({name + " 5x40, forward", forward, flop_of(net)});
     subjects.push_back({name + " 5x40, forward, then forward and back", gradient, 3 * flop_of(net)});
     gates.push_back({name + " forward, Gq/s", 1e-9 * forward, 2, false});
+    device->load(scene.view(), scene.networks, Precision::fp16x3);
+    double const nothing_wanted = 1e9;  // [m]: what the filter costs when it leaves nothing
+    double const tensor_forward = rate(*device, scene, nowhere, o.rounds);
+    double const tensor_gradient = rate(*device, scene, everywhere, o.rounds);
+    worst_tensor = std::max(worst_tensor, error_of_phi(scene, net) / fp32_error);
+    double const filter = rate(*device, scene, nothing_wanted, o.rounds);
+    subjects.push_back({name + " 5x40, fp16x3, forward", tensor_forward, flop_of(net)});
+    subjects.push_back({name + " 5x40, fp16x3, forward and back", tensor_gradient, 2 * flop_of(net)});
+    subjects.push_back({name + " 5x40, fp16 filter", filter, flop_of(net)});
+    gates.push_back({name + " fp16x3 forward, Gq/s", 1e-9 * tensor_forward, 4, false});
+    gates.push_back({name + " fp16x3 forward and back, Gq/s", 1e-9 * tensor_gradient, 2, false});
+    gates.push_back({name + " fp16 filter, Gq/s", 1e-9 * filter, 8, false});
+    Rejections const rejections = false_rejections(*device, scene, o);
+    gates.push_back(
+        {fmt::format("{} falsely rejected of {:.3g} near, {:.3g} inside", name, rejections.asked, rejections.inside),
+         rejections.falsely, 0, true});
+    gates.push_back({name + " fp16x3 over fp32, forward", tensor_forward / forward, 1, false});
   }
   {
     Scene many, decoder;
@@ -224,6 +302,7 @@ int run(int argc, char** argv) {
                      grid / subjects[subjects.size() - 2].queries_per_second, 6, true});
   }
   gates.push_back({"largest difference of phi to the host", worst, 1e-5, true});
+  gates.push_back({"error of phi, fp16x3 over fp32", worst_tensor, 2, true});
 
   fmt::print("{}\npeak {:.1f} TFLOP/s in fp32, measured\n\n{:48} {:>10} {:>10} {:>8}\n", device->describe(),
              1e-12 * peak, "medians of kernel times", "Gqueries/s", "TFLOP/s", "of peak");
