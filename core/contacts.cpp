@@ -27,7 +27,9 @@ bool pairs_are_stale(Scene const& scene, State const& state, Workspace const& wo
     Quat const f = work.built_orientation[i];
     Quat const turn = Quat{f.w, -f.x, -f.y, -f.z} * state.orientation[i];
     double const half_chord = std::sqrt(turn.x * turn.x + turn.y * turn.y + turn.z * turn.z);
-    double const reach = scene.shape[scene.shape_of[i]].bounding_radius * scene.diameter[i];
+    ShapeRecord const& shape = scene.shape[scene.shape_of[i]];
+    // A ball may turn as it likes.
+    double const reach = shape.closed_form_sphere ? 0 : shape.bounding_radius * scene.diameter[i];
     if (!std::isfinite(reach)) continue;  // a wall without bounds is near every grain
     // Both bodies of a pair may use up their own skin.
     if (!(norm(state.position[i] - work.built_position[i]) + 2 * reach * half_chord < work.skin[i])) return true;
@@ -93,10 +95,14 @@ void rebuild_pairs(Queue const& queue, Scene const& scene, SceneView const& view
     if (way > fast_way * work.skin[i]) grown[i] += way;
   }
   compute_bounds(queue, view, state.view(), grown, work.box);
-  find_pairs(queue, view, work.box, work.broad_phase);
+  for (int i = 0; i < scene.bodies(); ++i)
+    grown[i] += scene.shape[scene.shape_of[i]].bounding_radius * scene.diameter[i];
+  find_pairs(queue, view, work.box, {state.position, grown}, work.broad_phase);
   ScopedTimer const timer(queue.profile, "broad_phase/match", work.broad_phase.pair.size());
   match_old_pairs(work.pair, work.broad_phase.pair, work.old_pair);
   work.pair = work.broad_phase.pair;
+  work.result.assign(work.pair.size(), {});
+  work.in_contact.assign(work.pair.size(), 0);
   assign_pairs(scene, view, work);
   if (scene.friction) {
     permute(state.node_history.first, work.old_side, 0);
@@ -119,6 +125,8 @@ void restore_pairs(Scene const& scene, std::vector<Pair> const& pair, std::vecto
                    std::vector<Quat> const& built_orientation, Workspace& work) {
   set_skins(scene, pair_skin, work);
   work.pair = pair;
+  work.result.assign(pair.size(), {});
+  work.in_contact.assign(pair.size(), 0);
   work.old_pair.assign(pair.size(), -1);
   assign_pairs(scene, scene.view(), work);
   work.built_position = built_position;
@@ -134,7 +142,6 @@ void evaluate_contacts(Queue const& queue, Scene const& scene, Effects const& ef
   compute_kinematics(queue, view, now, work.kinematics);
   KinematicsView const kinematics{work.kinematics.rotation, work.kinematics.spin};
   ContactOptions const options{dt, settings.normalise_gradient};
-  work.result.resize(work.pair.size());
   RollingView rolling;
   if (effects.rolling) {
     work.next_rolling_history.angle.resize(work.pair.size());
@@ -148,15 +155,16 @@ void evaluate_contacts(Queue const& queue, Scene const& scene, Effects const& ef
     update_node_lists(queue, view, now, kinematics, scene.networks, gather, work.gather);
     find_active_nodes(queue, view, now, kinematics, scene.networks, gather, work.gather.lists, work.active);
     reduce_node_contacts(queue, view, now, kinematics, options, work.pair, work.closed_form, work.gather.lists,
-                         work.active, state.node_history, work.next_node_history, work.samples, rolling, work.result);
+                         work.active, state.node_history, work.next_node_history, work.samples, rolling, work.result,
+                         work.in_contact);
   }
   if (effects.sphere_contacts)
     sphere_contacts(queue, view, now, kinematics, options, work.pair, work.closed_form, state.sphere_history,
-                    work.next_sphere_history, rolling, work.result);
+                    work.next_sphere_history, rolling, work.result, work.in_contact);
   if (effects.friction && effects.node_contacts) std::swap(state.node_history, work.next_node_history);
   if (effects.friction && effects.sphere_contacts) std::swap(state.sphere_history, work.next_sphere_history);
   if (effects.rolling) std::swap(state.rolling_history, work.next_rolling_history);
-  reduce_to_bodies(queue, view, work.result, work.rolling, work.pairs_of_bodies, state.wrench);
+  reduce_to_bodies(queue, view, work.result, work.in_contact, work.rolling, work.pairs_of_bodies, state.wrench);
 }
 
 }  // namespace scree

@@ -41,7 +41,7 @@ void remove_contacts(Queue const& queue, Scene const& scene, State& state, Works
     state.work_rolling[p.a] += work.rolling[k].energy;
     work.rolling[k] = {};
   }
-  reduce_to_bodies(queue, scene.view(), work.result, work.rolling, work.pairs_of_bodies, state.wrench);
+  reduce_to_bodies(queue, scene.view(), work.result, work.in_contact, work.rolling, work.pairs_of_bodies, state.wrench);
   work.built_position.clear();
 }
 

@@ -189,7 +189,7 @@ void Simulation::restore(Checkpoint const& checkpoint) {
       if (!s.c.measure[k].every)
         state.measure[k].next = static_cast<std::int64_t>(std::floor(state.time / s.c.output.every)) + 1;
   s.state = std::move(state);
-  s.work.result.assign(s.work.pair.size(), {});
+  s.work.in_contact.assign(s.work.pair.size(), 1);  // until the next step finds out
   for (std::size_t k = 0; k < s.work.pair.size(); ++k) {
     s.work.result[k].energy_normal = checkpoint.pairs.energy_normal[k];
     s.work.result[k].energy_tangential = checkpoint.pairs.energy_tangential[k];

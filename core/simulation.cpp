@@ -194,7 +194,7 @@ void Simulation::Impl::check_travel() {
 
 void Simulation::Impl::check_time_step() {
   double const critical =
-      critical_time_step(scene.view(), work.pair, work.result, work.rolling, state.wrench.stiffness);
+      critical_time_step(scene.view(), work.pair, work.result, work.in_contact, work.rolling, state.wrench.stiffness);
   double const share = state.time_step / critical;
   if (c.time.step) {
     // The user's step is the user's, up to where it cannot work.

@@ -52,7 +52,7 @@ std::vector<Plan::Array> arrays_of(Simulation::Impl const& s) {
   std::vector<Plan::Array> arrays = {{"state", bytes(s.state.position) + bytes(s.state.velocity) +
                                                    bytes(s.state.orientation) + bytes(s.state.angular_momentum)},
                                      {"boxes", bytes(s.work.box) + bytes(s.work.broad_phase.node)},
-                                     {"pairs", bytes(s.work.pair) + bytes(s.work.result)}};
+                                     {"pairs", bytes(s.work.pair) + bytes(s.work.result) + bytes(s.work.in_contact)}};
   auto const add = [&](bool wanted, char const* name, std::int64_t size) {
     if (wanted) arrays.push_back({name, size});
   };

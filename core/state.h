@@ -92,6 +92,7 @@ struct Workspace {
   SphereHistory next_sphere_history;
   RollingHistory next_rolling_history;
   std::vector<PairResult> result;
+  std::vector<char> in_contact;        // 0: the pair's result is PairResult{} (n_pairs)
   std::vector<RollingResult> rolling;  // (n_pairs), empty without rolling resistance
   std::vector<double> kinetic;         // [J] (n_bodies)
   std::vector<int> leaving;  // [[delete]] entry that takes a body; -1: none (n_bodies), empty without deletion

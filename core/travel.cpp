@@ -14,7 +14,7 @@ double half_thickness_of(Scene const& scene, int body) {
 // Of its points by turning [m/s].
 double turning_speed(Scene const& scene, State const& state, int body) {
   if (body >= scene.bodies()) return norm(state.angular_momentum[body]) * scene.wall[body - scene.bodies()].reach;
-  Vec3 const spin = spin_of(to_matrix(state.orientation[body]), scene.inertia[body], state.angular_momentum[body]);
+  Vec3 const spin = spin_of(state.orientation[body], scene.inertia[body], state.angular_momentum[body]);
   return norm(spin) * scene.shape[scene.shape_of[body]].bounding_radius * scene.diameter[body];
 }
 

@@ -34,6 +34,7 @@ WatchReport watch(Queue const& queue, Scene const& scene, State& state, double g
         std::max(report.kinetic_largest, work.kinetic[i] / (scene.mass[i] * g * scene.diameter[i]));
   }
   for (std::size_t k = 0; k < work.pair.size(); ++k) {
+    if (!work.in_contact[k]) continue;
     Pair const p = work.pair[k];
     bool const wall = p.with_plane() || p.b >= n;
     double const d = wall ? scene.diameter[p.a] : std::min(scene.diameter[p.a], scene.diameter[p.b]);

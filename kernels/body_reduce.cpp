@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "kernels/base/parallel.h"
+#include "kernels/base/prefetch.h"
 #include "kernels/contact_reduce.h"
 
 namespace scree {
@@ -12,6 +13,7 @@ namespace {
 struct ReduceBody {
   SceneView scene;
   Span<const PairResult> result;
+  Span<const char> in_contact;
   Span<const RollingResult> rolling;  // empty: none
   Span<const int> first, entry;
   Span<Wrench> elastic, damping, friction;
@@ -22,7 +24,14 @@ struct ReduceBody {
     return as_a ? Wrench{w.force_on_a, w.torque_a} : Wrench{-w.force_on_a, w.torque_b};
   }
 
+  // Pairs that a body opens stand side by side; those it closes are anywhere.
+  SCREE_HD void prefetch_body(int i) const {
+    for (int k = first[i]; k < first[i + 1]; ++k)
+      if (entry[k] % 2 != 0 && in_contact[entry[k] / 2]) prefetch(result, entry[k] / 2);
+  }
+
   SCREE_HD void operator()(int i) const {
+    if (i + 2 < scene.solids()) prefetch_body(i + 2);  // bodies have several contacts each
     Wrench e, d, f;
     Vec3 c;
     double s = 0;
@@ -30,8 +39,9 @@ struct ReduceBody {
     double least = inertia.x < inertia.y ? inertia.x : inertia.y;
     least = inertia.z < least ? inertia.z : least;
     for (int k = first[i]; k < first[i + 1]; ++k) {
+      if (!in_contact[entry[k] / 2]) continue;
       PairResult const& r = result[entry[k] / 2];
-      if (r.active == 0) continue;
+      if (r.active == 0) continue;  // of a contact that ended between two steps
       bool const as_a = entry[k] % 2 == 0;
       e += share(r.elastic, as_a);
       d += share(r.damping, as_a);
@@ -65,7 +75,8 @@ void assign_pairs_to_bodies(int bodies, Span<const Pair> pair, PairsOfBodies& pa
 }
 
 void reduce_to_bodies(Queue const& queue, SceneView const& scene, Span<const PairResult> result,
-                      Span<const RollingResult> rolling, PairsOfBodies const& pairs, BodyWrenches& bodies) {
+                      Span<const char> in_contact, Span<const RollingResult> rolling, PairsOfBodies const& pairs,
+                      BodyWrenches& bodies) {
   int const n = scene.solids();
   bodies.elastic.resize(n);
   bodies.damping.resize(n);
@@ -73,22 +84,29 @@ void reduce_to_bodies(Queue const& queue, SceneView const& scene, Span<const Pai
   bodies.stiffness.resize(n);
   if (!rolling.empty() || !bodies.rolling.empty()) bodies.rolling.resize(n);
   parallel_for(queue, "integrate/wrenches", n,
-               ReduceBody{scene, result, rolling, pairs.first, pairs.entry, bodies.elastic, bodies.damping,
+               ReduceBody{scene, result, in_contact, rolling, pairs.first, pairs.entry, bodies.elastic, bodies.damping,
                           bodies.friction, bodies.stiffness, bodies.rolling},
                128);
 }
 
 double critical_time_step(SceneView const&, Span<const Pair> pair, Span<const PairResult> result,
-                          Span<const RollingResult> rolling, Span<const double> stiffness) {
-  double least = std::numeric_limits<double>::infinity();
+                          Span<const char> in_contact, Span<const RollingResult> rolling,
+                          Span<const double> stiffness) {
+  // Of all pairs the largest omega^2 / factor^2, so that one root at the end does for all; pairs of the same materials,
+  // most often neighbours in the list, share the damping factor.
+  double fastest = 0, zeta_of_factor = 0, factor2 = 1;
   for (int k = 0; k < pair.size(); ++k) {
-    if (result[k].active == 0) continue;
+    if (!in_contact[k] || result[k].active == 0) continue;
     double const omega2 = stiffness[pair[k].a] + (pair[k].with_plane() ? 0 : stiffness[pair[k].b]);
     double const turning = rolling.empty() ? 0 : rolling[k].damping_ratio;
     double const zeta = std::max(result[k].damping_ratio, turning);
-    if (omega2 > 0) least = std::min(least, 2 / std::sqrt(omega2) * (std::sqrt(1 + zeta * zeta) - zeta));
+    if (zeta != zeta_of_factor) {
+      double const factor = std::sqrt(1 + zeta * zeta) - zeta;
+      zeta_of_factor = zeta, factor2 = factor * factor;
+    }
+    if (omega2 > fastest * factor2) fastest = omega2 / factor2;
   }
-  return least;
+  return fastest > 0 ? 2 / std::sqrt(fastest) : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace scree

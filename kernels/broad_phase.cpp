@@ -80,6 +80,7 @@ struct PairsOfBody {
   Span<const PlaneRecord> plane;
   Span<const int> world_of;
   Span<const Box> box;
+  BoundingBalls balls;
   int grains;
   Span<const int> order;
   Span<const Box> node;
@@ -100,6 +101,12 @@ struct PairsOfBody {
       row[at] = {body, other};
     }
     ++n;
+  }
+
+  SCREE_HD bool balls_meet(int a, int b) const {
+    if (balls.radius.empty()) return true;
+    double const reach = balls.radius[a] + balls.radius[b];
+    return !(norm2(balls.centre[a] - balls.centre[b]) > reach * reach);  // what is no number is the watch's to report
   }
 
   // Whether a node of the hierarchy covers leaves of the body's world: those lie in ascending order of theirs.
@@ -138,7 +145,7 @@ struct PairsOfBody {
         if (!overlap(mine, node[level_first[level] + child]) || !may_meet(body, level, child)) continue;
         if (level > 0)
           stack[depth++] = {level, child};
-        else if (int const other = order[child]; other > body)
+        else if (int const other = order[child]; other > body && balls_meet(body, other))
           emit(body, other, n);
       }
     }
@@ -186,14 +193,15 @@ void build_hierarchy(Queue const& queue, Span<const Box> box, Span<const int> wo
 
 }  // namespace
 
-void find_pairs(Queue const& queue, SceneView const& scene, Span<const Box> box, BroadPhase& work) {
+void find_pairs(Queue const& queue, SceneView const& scene, Span<const Box> box, BoundingBalls const& balls,
+                BroadPhase& work) {
   int const n = box.size() - scene.walls;
   work.pair.clear();
   if (n == 0) return;
   build_hierarchy(queue, box.subspan(0, n), scene.world_of, work);
   work.count.resize(n);
   work.first.resize(n + 1);
-  PairsOfBody functor{scene.plane, scene.world_of,   box,        n,          work.order,
+  PairsOfBody functor{scene.plane, scene.world_of,   box,        balls,      n, work.order,
                       work.node,   work.level_first, work.count, work.first, {}};
   parallel_for(queue, "broad_phase/count", n, functor, 64);
   exclusive_scan(queue, work.count, work.first);

@@ -1,4 +1,4 @@
-// broad_phase.h: pairs of grains whose boxes overlap, and of grains and walls.
+// broad_phase.h: pairs of grains whose boxes and balls overlap, and of grains and walls.
 // An implicit bounding volume hierarchy: leaves in Morton order, level k node i covers leaves [i 2^k, (i+1) 2^k).
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -33,7 +33,15 @@ struct BroadPhase {
   std::vector<Pair> pair;         // result, ordered by (a, planes first in ascending index, then b)
 };
 
+// Balls that hold all of a grain that its box does; of the eight corners where two cubes meet and no balls do, they
+// leave half of a sphere's pairs. Empty: boxes alone decide.
+struct BoundingBalls {
+  Span<const Vec3> centre;    // [m] (n_bodies)
+  Span<const double> radius;  // [m] (n_bodies)
+};
+
 // box: of all solids (n_solids). Walls are few and large: each grain looks at every one of them.
-void find_pairs(Queue const& queue, SceneView const& scene, Span<const Box> box, BroadPhase& work);
+void find_pairs(Queue const& queue, SceneView const& scene, Span<const Box> box, BoundingBalls const& balls,
+                BroadPhase& work);
 
 }  // namespace scree

@@ -3,6 +3,7 @@
 #include "kernels/contact_reduce.h"
 
 #include "kernels/base/parallel.h"
+#include "kernels/base/prefetch.h"
 #include "kernels/contact_laws.h"
 #include "kernels/node_access.h"
 #include "kernels/rolling.h"
@@ -31,6 +32,7 @@ struct ReducePair {
   Span<NodeSample> samples;  // scratch of every active node
   RollingView rolling;
   Span<PairResult> result;
+  Span<char> in_contact;
 
   // One side of a pair, and what its nodes have in common.
   struct SideFrame {
@@ -188,16 +190,28 @@ struct ReducePair {
 
   SCREE_HD bool active_on(int side) const { return side >= 0 && active_first[side] < active_first[side + 1]; }
 
+  // What the contacts of a pair will need of its second body.
+  SCREE_HD void prefetch_pair(int k) const {
+    int const body = pair[k].b;
+    if (body < 0 || !(active_on(side_of_pair[2 * std::size_t(k)]) || active_on(side_of_pair[2 * std::size_t(k) + 1])))
+      return;
+    prefetch(state.position, body);
+    prefetch(state.velocity, body);
+    prefetch(kinematics.spin, body);
+    prefetch(kinematics.rotation, body);
+  }
+
   SCREE_HD void operator()(int k) const {
+    if (k + prefetch_ahead < pair.size()) prefetch_pair(k + prefetch_ahead);
     if (closed_form[k]) return;
     Pair const p = pair[k];
-    PairResult out;
     if (rolling.on()) rolling.next_angle[k] = {}, rolling.next_stiffness[k] = 0, rolling.result[k] = {};
     int const sides[2] = {side_of_pair[2 * std::size_t(k)], side_of_pair[2 * std::size_t(k) + 1]};
     if (!active_on(sides[0]) && !active_on(sides[1])) {
-      result[k] = out;
+      if (in_contact[k]) result[k] = {}, in_contact[k] = 0;
       return;
     }
+    PairResult out;
     // Walls carry nodes along their sharp edges only, so the grain's nodes keep their whole weight against them.
     bool const wall = p.with_plane() || scene.is_wall(p.b);
     Shares const share = wall || sides[0] < 0 || sides[1] < 0 ? Shares{{1, 1}} : shares_of(p);
@@ -239,6 +253,7 @@ struct ReducePair {
       resist_rolling(scene, kinematics, rolling, p, k, options.time_step, n, norm(pressing), sums.stiffness, out.arm2_a,
                      out.arm2_b);
     result[k] = out;
+    in_contact[k] = 1;
   }
 };
 
@@ -248,7 +263,7 @@ void reduce_node_contacts(Queue const& queue, SceneView const& scene, StateView 
                           ContactOptions const& options, Span<const Pair> pair, Span<const char> closed_form,
                           NodeLists const& lists, ActiveNodes const& active, NodeHistory const& history,
                           NodeHistory& next, std::vector<NodeSample>& samples, RollingView const& rolling,
-                          Span<PairResult> result) {
+                          Span<PairResult> result, Span<char> in_contact) {
   int const sides = static_cast<int>(lists.side.size());
   if (scene.friction) {
     next.node = active.node;
@@ -278,7 +293,8 @@ void reduce_node_contacts(Queue const& queue, SceneView const& scene, StateView 
                           next.xi,
                           samples,
                           rolling,
-                          result},
+                          result,
+                          in_contact},
                32);
 }
 

@@ -84,18 +84,19 @@ struct NodeSample {
 };
 
 // Pair results of all pairs with nodes; `next` receives the history of this step's active nodes. `samples` is scratch.
-// Velocities in `state` are those at half step. Pairs in closed form are left untouched.
+// Velocities in `state` are those at half step. Pairs in closed form are left untouched. in_contact[k] == 0 says that
+// result[k] is a PairResult{}: most pairs of a list do not touch, and none of the stages has to look at theirs.
 void reduce_node_contacts(Queue const& queue, SceneView const& scene, StateView const& state, KinematicsView kinematics,
                           ContactOptions const& options, Span<const Pair> pair, Span<const char> closed_form,
                           NodeLists const& lists, ActiveNodes const& active, NodeHistory const& history,
                           NodeHistory& next, std::vector<NodeSample>& samples, RollingView const& rolling,
-                          Span<PairResult> result);
+                          Span<PairResult> result, Span<char> in_contact);
 
 // Closed-form contacts of spheres with spheres, planes and smooth walls.
 void sphere_contacts(Queue const& queue, SceneView const& scene, StateView const& state, KinematicsView kinematics,
                      ContactOptions const& options, Span<const Pair> pair, Span<const char> closed_form,
                      SphereHistory const& history, SphereHistory& next, RollingView const& rolling,
-                     Span<PairResult> result);
+                     Span<PairResult> result, Span<char> in_contact);
 
 // Which pairs a body takes part in: entry 2 pair + (0: as a, 1: as b), ascending (CSR over bodies).
 struct PairsOfBodies {
@@ -109,11 +110,12 @@ struct BodyWrenches {
   std::vector<double> stiffness;                   // S_i of the critical step [1/s^2]; walls: 0 (n_solids)
 };
 void reduce_to_bodies(Queue const& queue, SceneView const& scene, Span<const PairResult> result,
-                      Span<const RollingResult> rolling, PairsOfBodies const& pairs, BodyWrenches& bodies);
+                      Span<const char> in_contact, Span<const RollingResult> rolling, PairsOfBodies const& pairs,
+                      BodyWrenches& bodies);
 
 // Largest stable step of this contact network: (2/omega)(sqrt(1+zeta^2) - zeta), omega^2 = max over pairs (S_i + S_j);
 // infinity without contact. Conservative (design physics.md section 4).
 double critical_time_step(SceneView const& scene, Span<const Pair> pair, Span<const PairResult> result,
-                          Span<const RollingResult> rolling, Span<const double> stiffness);
+                          Span<const char> in_contact, Span<const RollingResult> rolling, Span<const double> stiffness);
 
 }  // namespace scree

@@ -22,7 +22,7 @@ SCREE_HD void half_kick(SceneView const& scene, StateView const& state, Wrenches
 
 SCREE_HD void account(SceneView const& scene, StateView const& state, WrenchesView const& w, double dt, int i,
                       Vec3 half_velocity, Vec3 half_angular_momentum, WorkView const& work) {
-  Vec3 const spin = spin_of(to_matrix(state.orientation[i]), scene.inertia[i], half_angular_momentum);
+  Vec3 const spin = spin_of(state.orientation[i], scene.inertia[i], half_angular_momentum);
   work.damping[i] += 0.5 * dt * (dot(w.damping[i].force, half_velocity) + dot(w.damping[i].torque, spin));
   work.friction[i] += 0.5 * dt * (dot(w.friction[i].force, half_velocity) + dot(w.friction[i].torque, spin));
   if (!w.applied.empty())

@@ -39,23 +39,50 @@ SCREE_HD Quat rotate_free(Quat orientation, Vec3 inertia, Vec3 angular_momentum,
 
 // Translational plus rotational kinetic energy of body i [J].
 SCREE_HD inline double kinetic_energy(SceneView const& scene, StateView const& state, int i) {
+  if (is_isotropic(scene.inertia[i]))
+    return 0.5 * (scene.mass[i] * norm2(state.velocity[i]) + norm2(state.angular_momentum[i]) / scene.inertia[i].x);
   Vec3 const local = transposed_times(to_matrix(state.orientation[i]), state.angular_momentum[i]);
   return 0.5 * (scene.mass[i] * norm2(state.velocity[i]) + dot(local, divide(local, scene.inertia[i])));
 }
 
+// Sine and cosine of half an angle [rad]. In a time step angles are small: up to 0.1 by series that end below the last
+// bit there, a fifth of the time of the library's.
+struct HalfAngle {
+  double sine, cosine;
+
+  SCREE_HD explicit HalfAngle(double angle) {
+    double const h = 0.5 * angle, h2 = h * h;
+    if (h2 > 0.0025) {
+      sine = std::sin(h), cosine = std::cos(h);
+      return;
+    }
+    sine = h * (1 - h2 * (1.0 / 6 - h2 * (1.0 / 120 - h2 * (1.0 / 5040 - h2 / 362880))));
+    cosine = 1 - h2 * (0.5 - h2 * (1.0 / 24 - h2 * (1.0 / 720 - h2 * (1.0 / 40320 - h2 / 3628800))));
+  }
+};
+
+// ... of a ball: one turn about a fixed axis, by the vector `angle` (axis times angle [rad]).
+SCREE_HD inline Quat turn_ball(Quat q, Vec3 angle) {
+  double const a = norm(angle);
+  if (!(a > 0)) return q;
+  HalfAngle const half(a);
+  double const s = half.sine / a;
+  return normalized(Quat{half.cosine, angle.x * s, angle.y * s, angle.z * s} * q);
+}
+
 SCREE_HD inline Quat rotate_free(Quat q, Vec3 inertia, Vec3 angular_momentum, double dt) {
+  if (is_isotropic(inertia)) return turn_ball(q, angular_momentum * (dt / inertia.x));
   Vec3 l = transposed_times(to_matrix(q), angular_momentum);  // body frame
   int constexpr axis[5] = {0, 1, 2, 1, 0};
   double constexpr part[5] = {0.5, 0.5, 1, 0.5, 0.5};
   for (int k = 0; k < 5; ++k) {
     int const i = axis[k], j = (i + 1) % 3, m = (i + 2) % 3;
-    double const angle = part[k] * dt * l[i] / inertia[i];
-    double const c = std::cos(angle), s = std::sin(angle);
+    HalfAngle const half(part[k] * dt * l[i] / inertia[i]);
+    double const c = 1 - 2 * half.sine * half.sine, s = 2 * half.sine * half.cosine;
     double const lj = l[j], lm = l[m];
-    l[j] = c * lj + s * lm;  // the frame turns by `angle`, components by the opposite
+    l[j] = c * lj + s * lm;  // the frame turns by the angle, components by the opposite
     l[m] = c * lm - s * lj;
-    double const half_sine = std::sin(angle / 2);
-    q = q * Quat{std::cos(angle / 2), i == 0 ? half_sine : 0, i == 1 ? half_sine : 0, i == 2 ? half_sine : 0};
+    q = q * Quat{half.cosine, i == 0 ? half.sine : 0, i == 1 ? half.sine : 0, i == 2 ? half.sine : 0};
   }
   return normalized(q);
 }

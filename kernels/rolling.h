@@ -39,7 +39,7 @@ SCREE_HD inline void resist_rolling(SceneView const& scene, KinematicsView const
   double const c_r = 2 * p.rolling_damping * std::sqrt(k_r / compliance);
   Vec3 const kept = restored(rolling.angle[k], rolling.stiffness[k], k_r);
   double const given_up = 0.5 * (rolling.stiffness[k] * norm2(rolling.angle[k]) - k_r * norm2(kept));
-  Vec3 const old = transport(kept, mean_turn(kinematics, pair, dt), n);
+  Vec3 const old = laid_flat(turned_by(mean_spin(kinematics, pair) * dt, kept), n);
   TangentialResult const t = slide(old, w - n * dot(n, w), dt, c_r / k_r, reach * pressing / k_r);
   rolling.next_angle[k] = t.xi;
   rolling.next_stiffness[k] = k_r;

@@ -50,16 +50,27 @@ SCREE_HD inline Mat3 mean_turn(KinematicsView const& kinematics, Pair const& pai
   return to_matrix(quat_from_rotation_vector(mean_spin(kinematics, pair) * time_step));
 }
 
-// xi of the last step carried to this one: turned with the pair (mean_turn), laid into the tangent plane of unit
-// normal n, and given its old length back. Projection alone would lose the force as the pair turns.
-SCREE_HD inline Vec3 transport(Vec3 xi, Mat3 const& turn, Vec3 n) {
-  double const length = norm(xi);
-  if (!(length > 0)) return {};
-  Vec3 const turned = turn * xi;
-  Vec3 const flat = turned - n * dot(n, turned);
-  double const flat_length = norm(flat);
-  return flat_length > 0 ? flat * (length / flat_length) : Vec3{};
+// x turned by the vector `angle` (axis times angle [rad]), for one vector; for many, make the matrix. The series of
+// sin(a)/a and (1 - cos(a))/a^2 end below the last bit for angles up to 0.1.
+SCREE_HD inline Vec3 turned_by(Vec3 angle, Vec3 x) {
+  double const a2 = norm2(angle);
+  if (a2 > 0.01) return to_matrix(quat_from_rotation_vector(angle)) * x;
+  double const s = 1 - a2 * (1.0 / 6 - a2 * (1.0 / 120 - a2 * (1.0 / 5040 - a2 / 362880)));
+  double const c = 0.5 - a2 * (1.0 / 24 - a2 * (1.0 / 720 - a2 * (1.0 / 40320 - a2 / 3628800)));
+  Vec3 const across = cross(angle, x);
+  return x + across * s + cross(angle, across) * c;
 }
+
+// What was turned with its pair, laid into the tangent plane of unit normal n, and given its length back.
+SCREE_HD inline Vec3 laid_flat(Vec3 turned, Vec3 n) {
+  Vec3 const flat = turned - n * dot(n, turned);
+  double const flat2 = norm2(flat);
+  return flat2 > 0 ? flat * std::sqrt(norm2(turned) / flat2) : Vec3{};
+}
+
+// xi of the last step carried to this one: turned with the pair (mean_turn), then laid flat. Projection alone would
+// lose the force as the pair turns.
+SCREE_HD inline Vec3 transport(Vec3 xi, Mat3 const& turn, Vec3 n) { return laid_flat(turn * xi, n); }
 
 // Stretch of a spring whose stiffness was `before` (0: there was none) and is `now`: the force is kept when the contact
 // stiffens, the stretch when it softens. Neither makes energy.
@@ -78,11 +89,11 @@ struct TangentialResult {
 // beta: dashpot time [s]; limit: mu times normal force over tangential stiffness [m].
 SCREE_HD inline TangentialResult slide(Vec3 xi_old, Vec3 v, double dt, double beta, double limit) {
   Vec3 const trial = xi_old + v * dt;
-  double const stretched = norm(trial);
-  Vec3 const xi = stretched > limit ? trial * (limit / stretched) : trial;
+  double const stretched2 = norm2(trial), limit2 = limit * limit;  // most contacts stick: they need no root
+  Vec3 const xi = stretched2 > limit2 ? trial * (limit / std::sqrt(stretched2)) : trial;
   Vec3 total = xi + v * beta;
-  double const size = norm(total);
-  if (size > limit) total = total * (limit / size);
+  double const size2 = norm2(total);
+  if (size2 > limit2) total = total * (limit / std::sqrt(size2));
   // Plastic part by the trapezoidal rule (exact for a linear spring), viscous part by the dashpot's force.
   double const loss = 0.5 * dot(xi_old + xi, trial - xi) + dot(total - xi, v) * dt;
   return {xi, total, loss};

@@ -42,7 +42,7 @@ std::vector<Box> bed(int count, bool mixed) {
 std::size_t by_hierarchy(std::vector<Box> const& boxes, int threads, BroadPhase& work) {
   Queue queue;
   queue.threads = threads;
-  find_pairs(queue, SceneView{}, boxes, work);
+  find_pairs(queue, SceneView{}, boxes, {}, work);
   return work.pair.size();
 }
 

@@ -47,6 +47,46 @@ TEST(SpherePhysics, ElasticImpactReachesTheClosedFormOverlapAndReturns) {
   EXPECT_LT(std::abs(ledger.residual), 1e-4 * ledger.moved);
 }
 
+// Balls that come, touch and part again in one pair list: what is left of a contact that ended must be nothing.
+TEST(SpherePhysics, APairThatPartsLeavesNothingBehind) {
+  Case c = rock_case();
+  c.gravity = Vec3{0, 0, -9.81};
+  c.contact[0].friction = 0.4;
+  c.contact[0].damping_ratio = 0.1;
+  GrainsCase low = grains_at("sphere", {{0, 0, 0.0501}}), high = grains_at("sphere", {{0.02, 0.01, 0.1505}});
+  low.insert.velocity = {0.3, 0, -0.4}, high.insert.velocity = {-0.2, 0.1, -0.8};
+  high.name = "high";
+  c.grains = {low, high};
+  c.wall = {floor_at(0)};
+  c.time.end = 0.05;
+  Simulation s(c, {});
+  int parted = 0, met = 0;
+  std::vector<char> before;
+  while (s.step() == RunState::running) {
+    Workspace const& work = s.impl().work;
+    State const& state = s.impl().state;
+    for (std::size_t k = 0; k < work.pair.size(); ++k) {
+      Pair const p = work.pair[k];
+      double const gap =
+          p.with_plane() ? state.position[p.a].z - 0.05 : norm(state.position[p.a] - state.position[p.b]) - 0.1;
+      PairResult const& r = work.result[k];
+      EXPECT_EQ(work.in_contact[k] != 0, gap < 0);
+      EXPECT_NEAR(r.overlap, std::max(0.0, -gap), 1e-15);
+      EXPECT_EQ(r.active, gap < 0 ? 1 : 0);
+      EXPECT_EQ(norm(r.elastic.force_on_a) > 0, gap < 0);
+      if (gap >= 0) {
+        EXPECT_EQ(norm(r.friction.force_on_a) + norm(r.friction.torque_a) + norm(r.damping.force_on_a) + r.stiffness +
+                      r.energy_normal + r.energy_tangential + r.friction_loss,
+                  0);
+      }
+      if (before.size() == work.in_contact.size()) parted += before[k] && !work.in_contact[k], met += gap < 0;
+    }
+    before = work.in_contact;
+  }
+  EXPECT_GE(parted, 2);
+  EXPECT_GT(met, 20);
+}
+
 TEST(SpherePhysics, SizesAreDrawnUniformly) {
   Case c = rock_case();
   GrainsCase g = grains_at("sphere", {});

@@ -49,7 +49,8 @@ double critical_of(Case c) {
   c.time.step = 1e-12, c.time.end = 1e-11;
   Simulation s(c, {});
   Simulation::Impl& i = s.impl();
-  return critical_time_step(i.scene.view(), i.work.pair, i.work.result, i.work.rolling, i.state.wrench.stiffness);
+  return critical_time_step(i.scene.view(), i.work.pair, i.work.result, i.work.in_contact, i.work.rolling,
+                            i.state.wrench.stiffness);
 }
 
 TEST(Hard, TimeStepsAroundTheCriticalOne) {

@@ -57,7 +57,7 @@ TEST(BroadPhase, FindsExactlyTheOverlappingPairs) {
   for (int n : {0, 1, 2, 3, 7, 64, 65, 1000})
     for (double ratio : {1.0, 10.0, 100.0}) {
       std::vector<Box> const boxes = random_boxes(n, ratio, n + 1);
-      find_pairs({}, scene, boxes, work);
+      find_pairs({}, scene, boxes, {}, work);
       EXPECT_EQ(work.pair, brute_force(boxes, planes)) << n << " boxes, ratio " << ratio;
     }
 }
@@ -72,25 +72,46 @@ TEST(BroadPhase, BodiesOfDifferentWorldsNeverPair) {
       SceneView scene;
       scene.world_of = world;
       BroadPhase work;
-      find_pairs({.threads = 2}, scene, boxes, work);
+      find_pairs({.threads = 2}, scene, boxes, {}, work);
       std::vector<Pair> expected = brute_force(boxes, {});
       std::erase_if(expected, [&](Pair p) { return world[p.a] != world[p.b]; });
       EXPECT_EQ(work.pair, expected) << n << " boxes, " << worlds << " worlds";
     }
 }
 
+TEST(BroadPhase, BallsTakeOutPairsThatMeetAtCornersOnly) {
+  for (int n : {2, 65, 1000}) {
+    std::vector<Box> const boxes = random_boxes(n, 10, n + 7);
+    std::vector<Vec3> centre;
+    std::vector<double> radius;
+    for (Box const& b : boxes) {  // not at the middle: a body's box need not be about its centroid
+      centre.push_back(b.min * 0.4 + b.max * 0.6);
+      radius.push_back(0.5 * (b.max.y - b.min.y));
+    }
+    BroadPhase work;
+    find_pairs({}, {}, boxes, {centre, radius}, work);
+    std::vector<Pair> const all = brute_force(boxes, {});
+    std::vector<Pair> expected = all;
+    std::erase_if(expected, [&](Pair p) { return norm(centre[p.a] - centre[p.b]) > radius[p.a] + radius[p.b]; });
+    EXPECT_EQ(work.pair, expected) << n << " boxes";
+    if (n == 1000) {
+      EXPECT_LT(expected.size(), all.size());
+    }
+  }
+}
+
 TEST(BroadPhase, CoincidentBoxesAllPair) {
   std::vector<Box> const boxes(20, Box{{0, 0, 0}, {1, 1, 1}});
   BroadPhase work;
-  find_pairs({}, {}, boxes, work);
+  find_pairs({}, {}, boxes, {}, work);
   EXPECT_EQ(work.pair.size(), 20u * 19 / 2);
 }
 
 TEST(BroadPhase, DoesNotDependOnThreads) {
   std::vector<Box> const boxes = random_boxes(20000, 20, 3);
   BroadPhase one, two;
-  find_pairs({.threads = 1}, {}, boxes, one);
-  find_pairs({.threads = 2}, {}, boxes, two);
+  find_pairs({.threads = 1}, {}, boxes, {}, one);
+  find_pairs({.threads = 2}, {}, boxes, {}, two);
   EXPECT_GT(one.pair.size(), 100u);
   EXPECT_EQ(one.pair, two.pair);
 }

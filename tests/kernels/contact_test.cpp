@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "kernels/contact_laws.h"
+#include "kernels/integrate.h"
 #include "kernels/restitution.h"
 #include "kernels/tangential.h"
 
@@ -114,6 +115,42 @@ TEST(WinklerLaw, PressureAndSlopeAreDerivativesOfTheEnergy) {
   // The case file's k_n: secant stiffness of two equal spheres at the reference overlap.
   double const d = 0.1, k = 2e6, at = 0.01 * d;
   EXPECT_NEAR((SphereLaw{{ContactLaw::winkler, winkler_modulus(k, d, at)}, d / 4}.force(at) / at), k, 1e-6 * k);
+}
+
+// The series below 0.1 rad and the matrix above it are the same turn, right up to where one takes over from the other.
+TEST(Tangential, OneVectorTurnsLikeTheMatrix) {
+  Vec3 const x{0.3, -1.2, 0.7}, axis = normalized(Vec3{1, 2, -0.5});
+  for (double angle : {0.0, 1e-9, 1e-4, 0.03, 0.0999999, 0.1000001, 0.4, 3.0}) {
+    // Rodrigues' formula.
+    Vec3 const expected =
+        x * std::cos(angle) + cross(axis, x) * std::sin(angle) + axis * (dot(axis, x) * (1 - std::cos(angle)));
+    EXPECT_LT(norm(turned_by(axis * angle, x) - expected), 1e-15 * 4) << angle;
+  }
+  Vec3 const n{0, 0, 1};
+  Vec3 const flat = laid_flat({3, 0, 4}, n);
+  EXPECT_NEAR(flat.x, 5, 1e-14);
+  EXPECT_EQ(flat.z, 0);
+  EXPECT_EQ(norm(laid_flat({}, n)), 0);
+  EXPECT_EQ(norm(laid_flat({0, 0, 2}, n)), 0);  // nothing of it lies in the plane
+}
+
+// A ball turns about its fixed axis by spin times time; a body that is all but a ball, by the general path, alike.
+TEST(FreeRotation, OfABallIsOneTurn) {
+  double const inertia = 2e-3, dt = 1e-3;
+  Vec3 const spin{30, -20, 50};
+  Quat ball = normalized(Quat{0.5, 0.1, -0.7, 0.3}), other = ball;
+  Quat const start = ball;
+  for (int i = 0; i < 1000; ++i) {
+    ball = rotate_free(ball, {inertia, inertia, inertia}, spin * inertia, dt);
+    other = rotate_free(other, {inertia, inertia, inertia * (1 + 1e-9)}, spin * inertia, dt);
+  }
+  Quat const expected = quat_from_rotation_vector(spin * (1000 * dt)) * start;
+  auto const apart = [](Quat a, Quat b) { return 1 - std::abs(a.w * b.w + a.x * b.x + a.y * b.y + a.z * b.z); };
+  EXPECT_LT(apart(ball, expected), 1e-14);
+  // The splitting turns about three axes one after the other: wrong by less than (spin dt)^2 / 12 of the angle.
+  double const turned = norm(spin) * 1000 * dt, wrong = turned * norm2(spin * dt) / 12;
+  EXPECT_LT(apart(other, expected), wrong * wrong / 8);
+  EXPECT_GT(apart(other, expected), 0.01 * wrong * wrong / 8);  // it is another path indeed
 }
 
 TEST(Tangential, SpringSticksThenSlides) {
