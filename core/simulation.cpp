@@ -78,6 +78,7 @@ Simulation::Impl::Impl(Case const& c_, SimulationOptions const& options_, Frame 
   state.kinetic_peak = report.kinetic_total;
   if (effects.measures) start_measurements(c, scene, work, state);
   profile.clear();  // the run's own steps are what is profiled
+  counts_before = counts();
 }
 
 double Simulation::Impl::gravity_size() const {

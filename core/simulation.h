@@ -10,6 +10,7 @@
 
 #include "core/case.h"
 #include "core/measurements.h"
+#include "core/query_counts.h"
 #include "core/results.h"
 #include "kernels/base/profile.h"
 #include "kernels/network_device.h"
@@ -73,6 +74,7 @@ class Simulation {
   double largest_overlap() const;            // [d] at the nodes, last step
   double largest_kinetic_per_grain() const;  // [m g d] (with g = 9.81 where the case has no gravity), last step
   Profile const& profile() const;
+  QueryCounts query_counts() const;                             // of the steps of this process
   std::vector<Quantity> measure_quantities(int measure) const;  // of [[measure]] entry `measure`
   std::vector<MeasureRow> measure_rows();                       // samples taken since the last call
   std::vector<MeasureSummary> measure_summary() const;          // empty without [[measure]]

@@ -27,7 +27,8 @@ struct Simulation::Impl {
   RunState run_state = RunState::running;
   std::vector<std::string> messages;
   bool warned_of_share = false;
-  Box surroundings;  // empty: without walls, or a grain has left and it was said
+  QueryCounts counts_before;  // of what came before the first step
+  Box surroundings;           // empty: without walls, or a grain has left and it was said
   MeasureCache measure_cache;
   std::vector<MeasureRow> measure_rows;
   std::vector<Measurement> measure_on_schedule;  // at the end: State::measure without the samples taken because of it
@@ -35,6 +36,7 @@ struct Simulation::Impl {
 
   Impl(Case const& c_, SimulationOptions const& options_, Frame const* start);
   RunState step();
+  QueryCounts counts() const;   // since the start of the process
   double gravity_size() const;  // [m/s2]; 9.81 where the case has none
 
  private:

@@ -94,6 +94,15 @@ std::string replica_note(Case const& c) {
 
 }  // namespace
 
+QueryCounts Simulation::Impl::counts() const {
+  ActiveNodes const& active = work.active;
+  NodeLists const& lists = work.gather.lists;
+  return {active.nodes, active.listed,       active.queries,
+          active.fresh, lists.block_queries, active.due.flop + active.again.flop + work.gather.query.flop};
+}
+
+QueryCounts Simulation::query_counts() const { return impl_->counts() - impl_->counts_before; }
+
 Plan Simulation::plan() const {
   Impl const& s = *impl_;
   Plan plan;

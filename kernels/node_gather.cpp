@@ -174,7 +174,10 @@ void assign_sides(SceneView const& scene, int networks, Span<const Pair> pair, S
   });
   int const n = static_cast<int>(lists.side.size());
   lists.group.assign(query_groups(networks) + 1, 0);
-  for (Side const& s : lists.side) ++lists.group[group_of(scene, s, networks) + 1];
+  for (Side const& s : lists.side) {
+    ++lists.group[group_of(scene, s, networks) + 1];
+    lists.nodes += scene.shape_record(s.carrier).nodes;
+  }
   std::partial_sum(lists.group.begin(), lists.group.end(), lists.group.begin());
   lists.side_of_pair.assign(2 * std::size_t(pair.size()), -1);
   lists.pose.resize(n);
@@ -233,6 +236,8 @@ void find_active_nodes(Queue const& queue, SceneView const& scene, StateView con
   // A hair below the reach, since what is active is decided in units of the partner.
   double const gradient_from = -scene.cohesion_reach * (1 + 1e-12);
   evaluate_phi_and_marked_gradients(queue, scene, networks, active.due, active.graded, gradient_from);
+  active.nodes += lists.nodes;
+  active.listed += static_cast<std::int64_t>(lists.node.size());
   active.queries += n_due;
   parallel_for(queue, "node_gather/next_due", sides,
                NextDue{scene, lists.side, lists.travelled, options.brute_force, active.due_first, active.due_entry,

@@ -53,6 +53,7 @@ struct NodeLists {
   std::vector<int> node;           // relative to the shape's first node, ascending within a side
   std::vector<double> due;         // a listed node is outside while travelled < due [m]; was_inside: it was inside
                                    // at the last step (n_listed)
+  std::int64_t nodes = 0;          // of all sides: what brute force evaluates at every step
   std::int64_t rebuilt = 0;        // sides rebuilt since the start
   std::int64_t block_queries = 0;
 };
@@ -112,11 +113,12 @@ void update_node_lists(Queue const& queue, SceneView const& scene, StateView con
 
 // Nodes inside their partner (with cohesion: or within its reach) at this step, grouped as the sides are.
 struct ActiveNodes {
-  std::vector<int> first;    // (n_sides + 1)
-  std::vector<int> node;     // relative to the shape's first node, ascending within a side
-  QueryBatch sample;         // point, phi and gradient of each
-  std::int64_t queries = 0;  // listed nodes evaluated since the start
-  std::int64_t fresh = 0;    // those that came inside, and were evaluated again for their gradient
+  std::vector<int> first;  // (n_sides + 1)
+  std::vector<int> node;   // relative to the shape's first node, ascending within a side
+  QueryBatch sample;       // point, phi and gradient of each
+  // Since the start, summed over steps: nodes of all sides, those in a list, those of them that were due and evaluated.
+  std::int64_t nodes = 0, listed = 0, queries = 0;
+  std::int64_t fresh = 0;  // those that came inside, and were evaluated again for their gradient
   // Scratch: the listed nodes that are due, and those of them that came inside.
   QueryBatch due, again;
   std::vector<char> graded;  // has a gradient (n_due)

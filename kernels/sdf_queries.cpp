@@ -131,6 +131,13 @@ int assign_slots(Gradients const& gradients, int first, int end, Span<int> slot)
   return begin;
 }
 
+// Of one value of phi; the code is folded into the first bias.
+double flop_per_query(Mlp const& net) {
+  double flop = 2.0 * 3 * net.width[1];
+  for (int l = 1; l < net.layers(); ++l) flop += 2.0 * net.width[l] * net.width[l + 1];
+  return flop;
+}
+
 // Networks on the host: their frame, the network, and back.
 void evaluate_networks(Queue const& queue, SceneView const& scene, NetworkSet const& networks, QueryBatch& batch,
                        Gradients const& gradients) {
@@ -150,6 +157,7 @@ void evaluate_networks(Queue const& queue, SceneView const& scene, NetworkSet co
   Span<float> const values = batch.net_phi;
   for (std::size_t k = 0; k < networks.net.size(); ++k) {
     int const first = batch.group[k], middle = graded_from[k], end = batch.group[k + 1];
+    batch.flop += flop_per_query(networks.net[k].net()) * (static_cast<double>(middle - first) + 2.0 * (end - middle));
     if (middle > first)
       sdf_forward(queue, networks.net[k], networks.bias_rows[k], points.subspan(first, middle - first),
                   rows.subspan(first, middle - first), values.subspan(first, middle - first));

@@ -40,6 +40,8 @@ struct QueryBatch {
     partner.resize(n);
     phi.resize(n);
   }
+  // Useful operations of networks evaluated by the host since the start: 2 a weight, as many again for a gradient.
+  double flop = 0;
   // Scratch, float images of the points in their network's frame; within a group those with a gradient come last.
   std::vector<int> net_slot;  // of each query of a network
   std::vector<Vec3f> net_point, net_gradient;

@@ -10,6 +10,7 @@
 
 #include "kernels/base/build_info.h"
 #include "kernels/sdf/sdf_batch.h"
+#include "tools/bench/peak_meter.h"
 
 namespace scree {
 
@@ -134,13 +135,47 @@ std::string ledger_table(LedgerRow const& r) {
                            r.moved > 0 ? std::abs(r.residual) / r.moved : 0.0);
 }
 
-std::string stages_json(std::vector<StageRow> const& rows, Simulation const& s, int threads, double wall) {
+NetworkRate network_rate(QueryCounts const& counts, std::vector<StageRow> const& rows, int threads) {
+  NetworkRate out;
+  if (!(counts.flop > 0)) return out;
+  out.flop = counts.flop;
+  for (StageRow const& r : rows)
+    if (r.name == "sdf_net/forward" || r.name == "sdf_net/gradient") out.seconds += r.seconds;
+  out.peak = bench::measure_peak(threads);
+  return out;
+}
+
+std::string query_table(QueryCounts const& c, NetworkRate const& rate, int threads) {
+  if (c.nodes == 0) return {};
+  auto const percent = [&](std::int64_t part) {
+    return 100 * static_cast<double>(part) / static_cast<double>(c.nodes);
+  };
+  std::string out = fmt::format(
+      "queries   {} for {} nodes of near pairs, {:.3g} %: {} of nodes, {} again for a gradient, {} of blocks\n"
+      "left out  {:.4g} % of the nodes were in no list, too far away when it was made; {:.4g} % could not have come "
+      "inside since their last query",
+      grouped(c.made()), grouped(c.nodes), percent(c.made()), grouped(c.due), grouped(c.again), grouped(c.blocks),
+      percent(c.nodes - c.listed), percent(c.listed - c.due));
+  if (rate.flop > 0) out += fmt::format("\nnetworks  {:.3g} GFLOP/s", 1e-9 * rate.per_second());
+  if (rate.flop > 0 && rate.peak > 0)
+    out += fmt::format(", {:.3g} % of the {:.3g} that {} thread{} can do, measured now",
+                       100 * rate.per_second() / rate.peak, 1e-9 * rate.peak, threads, threads == 1 ? "" : "s");
+  return out;
+}
+
+std::string stages_json(std::vector<StageRow> const& rows, NetworkRate const& rate, Simulation const& s, int threads,
+                        double wall) {
   std::string out = fmt::format(
       "{{\n  \"version\": \"{}\",\n  \"commit\": \"{}\",\n  \"sdf_isa\": \"{}\",\n  \"threads\": {},\n  \"bodies\": "
       "{},\n  \"steps\": {},\n"
-      "  \"simulated_seconds\": {},\n  \"wall_seconds\": {},\n  \"particle_steps_per_second\": {},\n  \"stages\": [",
+      "  \"simulated_seconds\": {},\n  \"wall_seconds\": {},\n  \"particle_steps_per_second\": {},\n",
       build_info().version, build_info().commit, sdf_isa(), threads, s.bodies(), s.steps(), s.time(), wall,
       static_cast<double>(s.bodies()) * static_cast<double>(s.own_steps()) / std::max(wall, 1e-9));
+  QueryCounts const c = s.query_counts();
+  out += fmt::format(
+      "  \"queries\": {{\"nodes\": {}, \"listed\": {}, \"due\": {}, \"again\": {}, \"blocks\": {}}},\n"
+      "  \"networks\": {{\"flop\": {}, \"seconds\": {}, \"peak_flop_per_second\": {}}},\n  \"stages\": [",
+      c.nodes, c.listed, c.due, c.again, c.blocks, rate.flop, rate.seconds, rate.peak);
   for (std::size_t i = 0; i < rows.size(); ++i)
     out += fmt::format("{}\n    {{\"name\": \"{}\", \"seconds\": {}, \"calls\": {}, \"items\": {}}}", i ? "," : "",
                        rows[i].name, rows[i].seconds, rows[i].calls, rows[i].items);

@@ -10,6 +10,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <sstream>
 #include <thread>
 
 #include "core/case.h"
@@ -40,7 +41,21 @@ TEST_F(Program, RunsAndSealsItsFiles) {
   for (char const* name : {"ledger.csv", "stages.json", "run.log"}) EXPECT_GT(fs::file_size(out / name), 0u) << name;
   EXPECT_FALSE(fs::exists(out / "results.h5.partial"));
   EXPECT_FALSE(fs::exists(out / "paraview"));
+  EXPECT_EQ(outcome.text.find("queries"), std::string::npos);  // balls ask nobody
   EXPECT_EQ(scree("info small.out/results.h5").code, 0);
+}
+
+TEST_F(Program, TellsWhichQueriesItMadeAndWhichNot) {
+  write("small.toml", small_case);
+  Outcome const outcome = scree("run small.toml --set 'grains.one.shapes=[\"ellipsoid:1:0.8:0.6\"]'");
+  ASSERT_EQ(outcome.code, 0) << outcome.text;
+  for (char const* words : {"queries   ", "left out  "})
+    EXPECT_NE(outcome.text.find(words), std::string::npos) << outcome.text;
+  std::ifstream const file(folder_ / "small.out/stages.json");
+  std::stringstream text;
+  text << file.rdbuf();
+  for (char const* key : {"\"queries\": {\"nodes\": ", "\"peak_flop_per_second\": "})
+    EXPECT_NE(text.str().find(key), std::string::npos) << text.str();
 }
 
 TEST_F(Program, OverridesReachTheRun) {

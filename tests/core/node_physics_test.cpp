@@ -40,6 +40,43 @@ TEST(NodePhysics, NodeListsGiveTheContactSetsOfBruteForce) {
   EXPECT_LT(lists.impl().work.active.queries, brute.impl().work.active.queries / 20);
 }
 
+// The meter, where the answer is known: an ellipsoid that hovers over a floor asks for all of its nodes at every step
+// of a brute force, and for none of them by its list.
+TEST(NodePhysics, QueriesAreCounted) {
+  Case c = rock_case();
+  c.grains = {grains_at("ellipsoid:1:0.8:0.6", {{0, 0, 0.0405}}, 0.1, 250)};
+  c.wall = {floor_at(0)};
+  c.time.end = 0.01;
+  Simulation brute(c, {.brute_force = true}), lists(c, {});
+  for (int k = 0; k < 20; ++k) brute.step(), lists.step();
+  std::int64_t const nodes = 20 * brute.impl().scene.shape[0].nodes;
+  for (Simulation const* s : {&brute, &lists}) EXPECT_EQ(s->query_counts().nodes, nodes);
+  EXPECT_EQ(brute.query_counts().listed, nodes);
+  EXPECT_EQ(brute.query_counts().due, nodes);
+  EXPECT_EQ(lists.query_counts().made(), 0);  // what it was asked at the start does not count
+  EXPECT_EQ(lists.query_counts().flop, 0);    // nobody has a network
+}
+
+// Two networks face each other, apart: every query is one evaluation without a gradient, 2 operations a weight.
+TEST(NodePhysics, OperationsOfNetworksAreCounted) {
+  Case c = rock_case();
+  c.library = {{"grains", std::filesystem::path(SCREE_SOURCE_DIR) / "shapes/library/grains.h5"}};
+  c.grains = {grains_at("grains:ellipsoid/3", {{0, 0, 0}, {0, 0, 1}}, 0.1, 250)};
+  Box const box = Simulation(c, {}).impl().scene.shape[0].box;
+  c.grains[0].insert.position[1].z = 0.1 * (box.max.z - box.min.z + 0.02);
+  c.time.end = 0.01;
+  Simulation s(c, {.brute_force = true});
+  for (int k = 0; k < 5; ++k) s.step();
+  QueryCounts const counts = s.query_counts();
+  EXPECT_EQ(counts.due, 5 * 2 * s.impl().scene.shape[0].nodes);
+  EXPECT_GT(counts.blocks, 0);
+  EXPECT_EQ(counts.again, 0);
+  std::vector<int> const& width = s.impl().scene.networks.net.at(0).net().width;
+  double flop = 2.0 * 3 * width[1];
+  for (std::size_t l = 1; l + 1 < width.size(); ++l) flop += 2.0 * width[l] * width[l + 1];
+  EXPECT_EQ(counts.flop, flop * static_cast<double>(counts.due + counts.blocks));
+}
+
 // The same for the shipped networks, whose Lipschitz bound is sampled, not proved.
 TEST(NodePhysics, NodeListsOfNetworksGiveTheContactSetsOfBruteForce) {
   Case c = heap();

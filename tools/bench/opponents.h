@@ -1,4 +1,4 @@
-// opponents.h: what bench_sdf compares with: the machine's own peak, and the same network by other means.
+// opponents.h: what bench_sdf compares with: the same network by other means.
 // The network is leaky_relu. Every opponent runs on one thread and in float.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
@@ -10,17 +10,9 @@
 #include "kernels/base/span.h"
 #include "kernels/base/vec.h"
 #include "kernels/sdf/mlp.h"
+#include "tools/bench/peak_meter.h"
 
 namespace scree::bench {
-
-// FMA throughput of one core, measured now for some 4 ms with independent chains of the widest vectors [FLOP/s].
-double measure_peak();
-
-// Core clock from the latency of dependent integer additions, one cycle each on every x86-64 core [Hz]. Some 2 ms.
-double measure_clock();
-
-// What clock and FMA units allow: FLOP a cycle = 2 units x lanes x 2. (Some AVX-512 parts have one unit only.)
-double flop_per_cycle();
 
 class Opponent {
  public:

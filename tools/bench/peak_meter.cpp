@@ -1,8 +1,9 @@
 // peak_meter.cpp: the FMA throughput and the clock of the core the program runs on.
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <chrono>
 
-#include "tools/bench/opponents.h"
+#include "tools/bench/peak_meter.h"
 
 #if defined(__x86_64__)
 #include <immintrin.h>
@@ -50,19 +51,23 @@ int lanes() { return 0; }
 double flop_per_cycle() { return 2.0 * lanes() * 2.0; }
 
 // The fastest of many short trips: a preempted one says nothing of the core.
-double measure_peak() {
+double measure_peak(int threads) {
 #if defined(__x86_64__)
   if (lanes() == 0) return 0;
   double shortest = 1e9;
+  // Barriers round every trip: what counts is when the last of the threads is through.
+#pragma omp parallel num_threads(threads)
   for (int repeat = 0; repeat < 30; ++repeat) {
+#pragma omp barrier
     double const start = now();
     lanes() == 16 ? fma_trips_avx512() : fma_trips_avx2();
-    double const seconds = now() - start;
-    if (seconds < shortest) shortest = seconds;
+#pragma omp barrier
+#pragma omp master
+    shortest = std::min(shortest, now() - start);
   }
-  return 2.0 * chains * lanes() * trips / shortest;
+  return 2.0 * threads * chains * lanes() * trips / shortest;
 #else
-  return 0;
+  return 0 * threads;
 #endif
 }
 
