@@ -17,6 +17,8 @@ ROCKS = ("... --set grains.interpolation.interpolate= --set 'grains.interpolatio
 SLOPE = ("mkdir -p FOLDER && /usr/bin/python3 -c \"print('ncols 231\\nnrows 261\\nxllcorner 0\\nyllcorner 0\\n"
          "cellsize 1\\nnodata_value -9999'); [print(*[1600 + 0.3 * (260 - j)] * 231) for j in range(261)]\" "
          "> FOLDER/terrain.asc && ...")
+# The ball falls at once.
+BALL = "--set grains.ball.insert.start=0.0005 --set time.end=0.001 --set output.every=0.001 --threads 1"
 FIGURES = "...; test $? -le 1"  # 1: outside of what is expected
 INSTALLS = "installs packages and builds for minutes: its syntax"
 MINUTES = "takes minutes"
@@ -57,6 +59,13 @@ VARIANTS = [
     ("cases/packing/README.md", "scree run cases/packing/mix.toml --output mix.out", FEW, MINUTES),
     ("cases/packing/README.md",
      "scree run cases/packing/mix.toml --output sand.out --set 'grains.mix.shapes=[\"grains:sand/*\"]'", SAND, MINUTES),
+    ("cases/penetration/README.md", "scree run cases/penetration/deep.toml --output penetration.out",
+     "... --set grains.bed.count=100 " + BALL, "takes days"),
+    ("cases/penetration/README.md",
+     "scree run cases/penetration/deep.toml --output small.out --set grains.bed.count=800 --set grains.bed.diameter=0.01 "
+     "--set contact.0.normal.youngs_modulus=5e6 --set contact.1.normal.youngs_modulus=1e7 "
+     "--set contact.2.normal.youngs_modulus=1e7 --set limits.overlap=0.4 --set grains.ball.insert.start=0.35 "
+     "--set time.end=0.45 --set time.safety=0.5", "... " + BALL, "takes a minute"),
     ("cases/slope/README.md", "scree run cases/slope/rockfall.toml --output slope.out",
      ROCKS, MINUTES),
     ("cases/slope/README.md", "scree info slope.out/results.h5 --expected cases/slope/expected.toml", FIGURES,
