@@ -16,14 +16,22 @@ SCREE_HD PressureLaw law_of_spheres(PressureLaw const& law, double radius) {
   return out;
 }
 
-// Where a ball meets its partner. Both arms of two balls lie along n, and so does a's against a wall.
+// Where a ball a meets its partner b, and how. Arms run from a centroid to the contact point.
 struct Touch {
   Vec3 n;              // from b to a
   double overlap;      // [m]
   double effective;    // R [m]
-  double lever_a;      // contact point - centroid of a is -lever_a n [m]
-  double lever_b = 0;  // ... of b lever_b n, of two balls [m]
-  Vec3 arm_b;          // ... of a wall that is a body, which may be anywhere [m]
+  double mass;         // m_e [kg]: arms along n take no part in it, and walls are infinitely heavy
+  Vec3 velocity;       // of a past b at the contact point [m/s]
+  double lever_a;      // the arm of a is -lever_a n [m]
+  double lever_b = 0;  // that of another ball lever_b n [m]
+  Vec3 arm_b;          // that of a wall which is a body: it may lie anywhere [m]
+};
+
+struct Friction {
+  Vec3 force_on_a;              // [N]
+  double stiffness = 0;         // [N/m]
+  double energy = 0, loss = 0;  // stored, and lost in this step [J]
 };
 
 struct SpherePair {
@@ -51,15 +59,20 @@ struct SpherePair {
     return 1 / std::sqrt((first > least ? first : least) * (second > least ? second : least));
   }
 
+  SCREE_HD Vec3 spin_of_b(Pair p) const { return p.with_plane() ? Vec3{} : kinematics.spin[p.b]; }
+
   // The contact point lies half way into the overlap.
   SCREE_HD Touch with_ball(Pair p, double ra, Vec3 gap) const {
     Touch t;
-    double const rb = radius(p.b), distance = norm(gap);
+    double const rb = radius(p.b), distance = norm(gap), ma = scene.mass[p.a], mb = scene.mass[p.b];
     t.n = distance > 0 ? gap * (1 / distance) : Vec3{0, 0, 1};
     t.overlap = ra + rb - distance;
     t.effective = ra * rb / (ra + rb);
+    t.mass = ma * mb / (ma + mb);
     t.lever_a = ra - 0.5 * t.overlap;
     t.lever_b = rb - 0.5 * t.overlap;
+    Vec3 const rolled = kinematics.spin[p.a] * t.lever_a + kinematics.spin[p.b] * t.lever_b;
+    t.velocity = state.velocity[p.a] - state.velocity[p.b] - cross(rolled, t.n);
     return t;
   }
 
@@ -72,6 +85,7 @@ struct SpherePair {
       t.n = plane.normal;
       t.overlap = ra - dot(t.n, xa - plane.point);
       t.effective = ra;
+      t.velocity = state.velocity[p.a];
     } else {
       Mat3 const& rotation = kinematics.rotation[p.b];
       Vec3 const local = transposed_times(rotation, xa - state.position[p.b]);
@@ -80,13 +94,12 @@ struct SpherePair {
       t.n = rotation * -gradient;
       t.effective = radius_against(ra, wall_curvatures(scene.shape_record(p.b).analytic, local));
       t.arm_b = xa - t.n * (ra - t.overlap) - state.position[p.b];
+      t.velocity = state.velocity[p.a] - state.velocity[p.b] - cross(kinematics.spin[p.b], t.arm_b);
     }
+    t.mass = scene.mass[p.a];
     t.lever_a = ra - t.overlap;
+    t.velocity -= cross(kinematics.spin[p.a] * t.lever_a, t.n);
     return t;
-  }
-
-  SCREE_HD void leave(int k) const {
-    if (in_contact[k]) result[k] = {}, in_contact[k] = 0;
   }
 
   SCREE_HD void operator()(int k) const {
@@ -99,84 +112,81 @@ struct SpherePair {
     if (rolling.on()) rolling.next_angle[k] = {}, rolling.next_stiffness[k] = 0, rolling.result[k] = {};
     Pair const p = pair[k];
     double const ra = radius(p.a);
-    bool const two_balls = !p.with_plane() && !scene.is_wall(p.b);
     ContactParameters const& parameters = contact_parameters(scene, p);
     double const reach = parameters.cohesion.traction > 0 ? parameters.cohesion.reach() : 0;
-    if (two_balls) {  // most pairs of a list do not touch: they cost no root
-      Vec3 const gap = state.position[p.a] - state.position[p.b];
-      double const touching = ra + radius(p.b) + reach;
-      if (norm2(gap) >= touching * touching) return leave(k);
-      meet(k, p, parameters, with_ball(p, ra, gap), true);
-    } else {
+    if (p.with_plane() || scene.is_wall(p.b)) {
       Touch const t = with_wall(p, ra);
-      if (!(t.overlap > -reach)) return leave(k);
-      meet(k, p, parameters, t, false);
+      return t.overlap > -reach ? meet(k, p, parameters, t) : leave(k);
     }
+    // Most pairs of a list do not touch: they cost no root. What is no number touches nothing.
+    Vec3 const gap = state.position[p.a] - state.position[p.b];
+    double const touching = ra + radius(p.b) + reach;
+    return norm2(gap) < touching * touching ? meet(k, p, parameters, with_ball(p, ra, gap)) : leave(k);
   }
 
-  SCREE_HD void meet(int k, Pair p, ContactParameters const& parameters, Touch const& t, bool two_balls) const {
+  SCREE_HD void leave(int k) const {
+    if (in_contact[k]) result[k] = {}, in_contact[k] = 0;
+  }
+
+  // The pair's spring, carried over from the last step, under the normal force `pressing` [N].
+  SCREE_HD Friction friction(int k, Pair p, ContactParameters const& parameters, Touch const& t, double k_t,
+                             double pressing) const {
+    double const softness = 1 / k_t;
+    Vec3 old = restored(history_xi[k], history_stiffness[k], k_t);
+    Vec3 const turn = (kinematics.spin[p.a] + spin_of_b(p)) * (0.5 * options.time_step);
+    if (norm2(old) > 0) old = laid_flat(turned_by(turn, old), t.n);
+    double const beta = 2 * parameters.damping_sphere * std::sqrt(t.mass * softness);
+    TangentialResult const slid = slide(old, t.velocity - t.n * dot(t.n, t.velocity), options.time_step, beta,
+                                        parameters.friction * pressing * softness);
+    next_xi[k] = slid.xi;
+    next_stiffness[k] = k_t;
+    return {slid.traction * -k_t, k_t, 0.5 * k_t * norm2(slid.xi), k_t * slid.loss};
+  }
+
+  SCREE_HD void meet(int k, Pair p, ContactParameters const& parameters, Touch const& t) const {
+    double pushing = 0, pressing = 0, stiffness = 0;  // force of the law, the same with its damping, K
     PairResult& out = result[k];
-    if (!in_contact[k]) in_contact[k] = 1;
-    bool const wall_body = !two_balls && !p.with_plane();
-    out.active = 1;
-    out.arm2_a = t.lever_a * t.lever_a;
-    out.arm2_b = two_balls ? t.lever_b * t.lever_b : norm2(t.arm_b);
-    double adhesion = 0, adhesive_energy = 0, adhesive_stiffness = 0;
+    out.energy_normal = 0;
+    Friction rubbing;
+    if (t.overlap > 0) {  // adhesion does not damp, and friction lives on the force of the law
+      SphereLaw const law{law_of_spheres(parameters.normal, t.effective), t.effective};
+      pushing = law.force(t.overlap), stiffness = law.stiffness(t.overlap);
+      out.energy_normal = law.energy(t.overlap);
+      double const damping = 2 * parameters.damping_sphere * std::sqrt(t.mass * stiffness);
+      pressing = pushing - damping * dot(t.n, t.velocity);
+      pressing = pressing > 0 ? pressing : 0;
+      double const k_t = law.tangential(t.overlap) * parameters.tangential;
+      if (parameters.friction > 0 && k_t > 0) rubbing = friction(k, p, parameters, t, k_t, pressing);
+    }
+    double adhesion = 0, adhesive_stiffness = 0;
     if (parameters.cohesion.traction > 0) {
       double const girth = 2 * SphereLaw::pi * t.effective;
       adhesion = girth * parameters.cohesion.energy(t.overlap);
-      adhesive_energy = girth * parameters.cohesion.energy_integral(t.overlap);
       adhesive_stiffness = -girth * parameters.cohesion.pressure(t.overlap);
+      out.energy_normal += girth * parameters.cohesion.energy_integral(t.overlap);
     }
-    double force = 0, energy = 0, stiffness = 0, total = 0, k_t = 0, lost = 0, stored = 0;
-    Vec3 drag, turning;   // friction on a, and its cross product with n
-    if (t.overlap > 0) {  // adhesion does not damp, and friction lives on the force of the law
-      SphereLaw const law{law_of_spheres(parameters.normal, t.effective), t.effective};
-      force = law.force(t.overlap), energy = law.energy(t.overlap), stiffness = law.stiffness(t.overlap);
-      // Arms along n take no part in m_e, and walls are infinitely heavy.
-      double const ma = scene.mass[p.a], mb = two_balls ? scene.mass[p.b] : 0;
-      double const mass = two_balls ? ma * mb / (ma + mb) : ma;
-      Vec3 const wa = kinematics.spin[p.a], wb = p.with_plane() ? Vec3{} : kinematics.spin[p.b];
-      Vec3 v = state.velocity[p.a], rolled = wa * t.lever_a;
-      if (!p.with_plane()) v -= state.velocity[p.b];
-      if (two_balls) rolled += wb * t.lever_b;
-      if (wall_body) v -= cross(wb, t.arm_b);
-      v -= cross(rolled, t.n);
-      double const closing = dot(t.n, v);
-      total = force - 2 * parameters.damping_sphere * std::sqrt(mass * stiffness) * closing;
-      total = total > 0 ? total : 0;
-      k_t = law.tangential(t.overlap) * parameters.tangential;
-      if (parameters.friction > 0 && k_t > 0) {
-        double const softness = 1 / k_t;
-        Vec3 old = restored(history_xi[k], history_stiffness[k], k_t);
-        if (norm2(old) > 0) old = laid_flat(turned_by((wa + wb) * (0.5 * options.time_step), old), t.n);
-        TangentialResult const slid =
-            slide(old, v - t.n * closing, options.time_step, 2 * parameters.damping_sphere * std::sqrt(mass * softness),
-                  parameters.friction * total * softness);
-        next_xi[k] = slid.xi;
-        next_stiffness[k] = k_t;
-        drag = slid.traction * -k_t;
-        turning = cross(t.n, drag);
-        stored = 0.5 * k_t * norm2(slid.xi);
-        lost = k_t * slid.loss;
-      }
-    }
-    out.elastic = {t.n * (force + adhesion), {}, {}};
-    out.damping = {t.overlap > 0 ? t.n * (total - force) : Vec3{}, {}, {}};
-    out.friction = {drag, turning * -t.lever_a, two_balls ? turning * -t.lever_b : -cross(t.arm_b, drag)};
-    if (wall_body) {  // a normal force has no lever arm about a ball's centre, but it may have one about a wall's
-      out.elastic.torque_b = -cross(t.arm_b, out.elastic.force_on_a);
-      out.damping.torque_b = -cross(t.arm_b, out.damping.force_on_a);
-    }
-    out.energy_normal = energy + adhesive_energy;
-    out.energy_tangential = stored;
-    out.friction_loss = lost;
+    out.elastic = normal_wrench(t, pushing + adhesion);
+    out.damping = normal_wrench(t, pressing - pushing);
+    Vec3 const drag = rubbing.force_on_a, turning = cross(t.n, drag);
+    out.friction = {drag, turning * -t.lever_a, turning * -t.lever_b - cross(t.arm_b, drag)};
+    out.energy_tangential = rubbing.energy;
+    out.friction_loss = rubbing.loss;
     out.overlap = t.overlap > 0 ? t.overlap : 0;
     out.damping_ratio = t.overlap > 0 ? parameters.damping_sphere : 0;
-    out.stiffness = (parameters.friction > 0 && k_t > stiffness ? k_t : stiffness) + adhesive_stiffness;
+    out.stiffness = (rubbing.stiffness > stiffness ? rubbing.stiffness : stiffness) + adhesive_stiffness;
+    out.arm2_a = t.lever_a * t.lever_a;
+    out.arm2_b = t.lever_b * t.lever_b + norm2(t.arm_b);
+    out.active = 1;
+    in_contact[k] = 1;
     if (rolling.on() && t.overlap > 0)
-      resist_rolling(scene, kinematics, rolling, p, k, options.time_step, t.n, total, stiffness, out.arm2_a,
+      resist_rolling(scene, kinematics, rolling, p, k, options.time_step, t.n, pressing, stiffness, out.arm2_a,
                      out.arm2_b);
+  }
+
+  // A normal force has no lever arm about a ball's centre, but it may have one about a wall's.
+  SCREE_HD static PairWrench normal_wrench(Touch const& t, double size) {
+    Vec3 const force = t.n * size;
+    return {force, {}, -cross(t.arm_b, force)};
   }
 };
 

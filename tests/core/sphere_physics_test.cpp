@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "core/simulation_impl.h"
 #include "tests/support/cases.h"
@@ -85,6 +86,22 @@ TEST(SpherePhysics, APairThatPartsLeavesNothingBehind) {
   }
   EXPECT_GE(parted, 2);
   EXPECT_GT(met, 20);
+}
+
+// A ball that is nowhere touches nobody: its neighbour stays a number, and the message names the one that is lost.
+TEST(SpherePhysics, WhatIsNoNumberTouchesNothing) {
+  Case c = rock_case();
+  c.grains = {grains_at("sphere", {{0, 0, 0}, {0, 0, 0.099}})};
+  c.time.end = 0.01;
+  Simulation s(c, {});
+  s.impl().state.position[1].x = std::numeric_limits<double>::quiet_NaN();
+  try {
+    s.step();
+    FAIL() << "nobody noticed";
+  } catch (WatchStop const& stop) {
+    EXPECT_NE(std::string(stop.what()).find("grain 1 "), std::string::npos) << stop.what();
+  }
+  EXPECT_TRUE(is_finite(s.impl().state.velocity[0]));
 }
 
 TEST(SpherePhysics, SizesAreDrawnUniformly) {
