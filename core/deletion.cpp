@@ -35,7 +35,7 @@ void remove_contacts(Queue const& queue, Scene const& scene, State& state, Works
     state.deleted_energy += r.energy_normal + r.energy_tangential;
     // The ledger's friction is what friction took and did not store; what it stored has left, it was not lost.
     state.work_friction[p.a] += r.energy_tangential;
-    r = {};
+    r = {}, work.in_contact[k] = 0;
     if (work.rolling.empty()) continue;
     state.deleted_energy += work.rolling[k].energy;
     state.work_rolling[p.a] += work.rolling[k].energy;

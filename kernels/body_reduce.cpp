@@ -41,7 +41,6 @@ struct ReduceBody {
     for (int k = first[i]; k < first[i + 1]; ++k) {
       if (!in_contact[entry[k] / 2]) continue;
       PairResult const& r = result[entry[k] / 2];
-      if (r.active == 0) continue;  // of a contact that ended between two steps
       bool const as_a = entry[k] % 2 == 0;
       e += share(r.elastic, as_a);
       d += share(r.damping, as_a);
@@ -96,7 +95,7 @@ double critical_time_step(SceneView const&, Span<const Pair> pair, Span<const Pa
   // most often neighbours in the list, share the damping factor.
   double fastest = 0, zeta_of_factor = 0, factor2 = 1;
   for (int k = 0; k < pair.size(); ++k) {
-    if (!in_contact[k] || result[k].active == 0) continue;
+    if (!in_contact[k]) continue;
     double const omega2 = stiffness[pair[k].a] + (pair[k].with_plane() ? 0 : stiffness[pair[k].b]);
     double const turning = rolling.empty() ? 0 : rolling[k].damping_ratio;
     double const zeta = std::max(result[k].damping_ratio, turning);
