@@ -131,13 +131,6 @@ int assign_slots(Gradients const& gradients, int first, int end, Span<int> slot)
   return begin;
 }
 
-// Of one value of phi; the code is folded into the first bias.
-double flop_per_query(Mlp const& net) {
-  double flop = 2.0 * 3 * net.width[1];
-  for (int l = 1; l < net.layers(); ++l) flop += 2.0 * net.width[l] * net.width[l + 1];
-  return flop;
-}
-
 // Networks on the host: their frame, the network, and back.
 void evaluate_networks(Queue const& queue, SceneView const& scene, NetworkSet const& networks, QueryBatch& batch,
                        Gradients const& gradients) {
@@ -219,6 +212,12 @@ void evaluate(Queue const& queue, SceneView const& scene, NetworkSet const& netw
 }
 
 }  // namespace
+
+double flop_per_query(Mlp const& net) {
+  double flop = 2.0 * 3 * net.width[1];
+  for (int l = 1; l < net.layers(); ++l) flop += 2.0 * net.width[l] * net.width[l + 1];
+  return flop;
+}
 
 void evaluate_phi(Queue const& queue, SceneView const& scene, NetworkSet const& networks, QueryBatch& batch) {
   evaluate(queue, scene, networks, batch, false);

@@ -20,6 +20,9 @@ struct NetworkSet {
   std::shared_ptr<NetworkDevice> device;      // loaded with these; null: the host evaluates them
 };
 
+// Useful operations of one phi: two a weight. The code is folded into the first bias and costs nothing.
+double flop_per_query(Mlp const& net);
+
 // Groups of queries: one a network, then one for each other kind in the order of SdfKind; planes and formulas come
 // last.
 SCREE_HD inline int query_groups(int networks) { return networks + 4; }
@@ -40,7 +43,7 @@ struct QueryBatch {
     partner.resize(n);
     phi.resize(n);
   }
-  // Useful operations of networks evaluated by the host since the start: 2 a weight, as many again for a gradient.
+  // Of networks evaluated by the host since the start: flop_per_query, and as many again for a gradient.
   double flop = 0;
   // Scratch, float images of the points in their network's frame; within a group those with a gradient come last.
   std::vector<int> net_slot;  // of each query of a network

@@ -54,12 +54,6 @@ Mlp with_surface(Mlp net) {
   return net;
 }
 
-double flop_of(Mlp const& net) {
-  double flop = 2.0 * 3 * net.width[1];
-  for (int l = 1; l < net.layers(); ++l) flop += 2.0 * net.width[l] * net.width[l + 1];
-  return flop;
-}
-
 // Bodies of many shapes, and points in their balls grouped by network, those of a body together, as node lists are.
 struct Scene {
   NetworkSet networks;
@@ -263,8 +257,8 @@ int run(int argc, char** argv) {
     worst = std::max(worst, difference(scene));
     double const fp32_error = error_of_phi(scene, net);
     std::string const name = to_string(activation);
-    subjects.push_back({name + " 5x40, forward", forward, flop_of(net)});
-    subjects.push_back({name + " 5x40, forward, then forward and back", gradient, 3 * flop_of(net)});
+    subjects.push_back({name + " 5x40, forward", forward, flop_per_query(net)});
+    subjects.push_back({name + " 5x40, forward, then forward and back", gradient, 3 * flop_per_query(net)});
     gates.push_back({name + " forward, Gq/s", 1e-9 * forward, 2, false});
     device->load(scene.view(), scene.networks, Precision::fp16x3);
     double const nothing_wanted = 1e9;  // [m]: what the filter costs when it leaves nothing
@@ -272,9 +266,9 @@ int run(int argc, char** argv) {
     double const tensor_gradient = rate(*device, scene, everywhere, o.rounds);
     worst_tensor = std::max(worst_tensor, error_of_phi(scene, net) / fp32_error);
     double const filter = rate(*device, scene, nothing_wanted, o.rounds);
-    subjects.push_back({name + " 5x40, fp16x3, forward", tensor_forward, flop_of(net)});
-    subjects.push_back({name + " 5x40, fp16x3, forward and back", tensor_gradient, 2 * flop_of(net)});
-    subjects.push_back({name + " 5x40, fp16 filter", filter, flop_of(net)});
+    subjects.push_back({name + " 5x40, fp16x3, forward", tensor_forward, flop_per_query(net)});
+    subjects.push_back({name + " 5x40, fp16x3, forward and back", tensor_gradient, 2 * flop_per_query(net)});
+    subjects.push_back({name + " 5x40, fp16 filter", filter, flop_per_query(net)});
     gates.push_back({name + " fp16x3 forward, Gq/s", 1e-9 * tensor_forward, 4, false});
     gates.push_back({name + " fp16x3 forward and back, Gq/s", 1e-9 * tensor_gradient, 2, false});
     gates.push_back({name + " fp16 filter, Gq/s", 1e-9 * filter, 8, false});
@@ -294,7 +288,7 @@ int run(int argc, char** argv) {
       double const q = rate(*device, *s, nowhere, o.rounds);
       worst = std::max(worst, difference(*s));
       subjects.push_back({fmt::format("sine 5x40, {} {}", o.shapes, s == &many ? "networks" : "codes of one decoder"),
-                          q, flop_of(s->networks.net[0].net())});
+                          q, flop_per_query(s->networks.net[0].net())});
     }
     double const grid = on_device ? grid_rate(decoder, o.rounds) : std::numeric_limits<double>::quiet_NaN();
     subjects.push_back({fmt::format("{} grids of 43^3, trilinear", o.shapes), grid, 0});
