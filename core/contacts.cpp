@@ -95,9 +95,10 @@ void rebuild_pairs(Queue const& queue, Scene const& scene, SceneView const& view
     if (way > fast_way * work.skin[i]) grown[i] += way;
   }
   compute_bounds(queue, view, state.view(), grown, work.box);
+  std::vector<double> ball(scene.bodies());
   for (int i = 0; i < scene.bodies(); ++i)
-    grown[i] += scene.shape[scene.shape_of[i]].bounding_radius * scene.diameter[i];
-  find_pairs(queue, view, work.box, {state.position, grown}, work.broad_phase);
+    ball[i] = scene.shape[scene.shape_of[i]].bounding_radius * scene.diameter[i] + grown[i];
+  find_pairs(queue, view, work.box, {state.position, ball}, work.broad_phase);
   ScopedTimer const timer(queue.profile, "broad_phase/match", work.broad_phase.pair.size());
   match_old_pairs(work.pair, work.broad_phase.pair, work.old_pair);
   work.pair = work.broad_phase.pair;

@@ -46,7 +46,7 @@ SCREE_HD inline double kinetic_energy(SceneView const& scene, StateView const& s
 }
 
 // Sine and cosine of half an angle [rad]. In a time step angles are small: up to 0.1 by series that end below the last
-// bit there, a fifth of the time of the library's.
+// bit there.
 struct HalfAngle {
   double sine, cosine;
 
@@ -61,7 +61,7 @@ struct HalfAngle {
   }
 };
 
-// ... of a ball: one turn about a fixed axis, by the vector `angle` (axis times angle [rad]).
+// Orientation of a ball after one turn about a fixed axis, by the vector `angle` (axis times angle [rad]).
 SCREE_HD inline Quat turn_ball(Quat q, Vec3 angle) {
   double const a = norm(angle);
   if (!(a > 0)) return q;

@@ -62,14 +62,15 @@ struct MarkStale {
   Span<double> travelled, skin;
   Span<int> stale;
 
+  // Sides stand in the order of their pair's first body; the second one, which has the higher index, is anywhere.
+  SCREE_HD void prefetch_side(int s) const {
+    int const body = side[s].carrier > side[s].partner ? side[s].carrier : side[s].partner;
+    prefetch(state.position, body);
+    prefetch(state.orientation, body);
+  }
+
   SCREE_HD void operator()(int s) const {
-    if (s + prefetch_ahead < side.size()) {
-      Side const& next = side[s + prefetch_ahead];
-      int const far =
-          next.carrier > next.partner ? next.carrier : next.partner;  // sides follow each other by the other
-      prefetch(state.position, far);
-      prefetch(state.orientation, far);
-    }
+    if (s + prefetch_ahead < side.size()) prefetch_side(s + prefetch_ahead);
     Side const moving = moving_part(scene, side[s]);
     double const radius = scene.shape_record(moving.carrier).bounding_radius * scene.diameter[moving.carrier];
     RelativePose const now = relative_pose(scene, state, moving);

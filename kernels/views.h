@@ -113,8 +113,7 @@ struct StateView {
   SCREE_HD bool active(int i) const { return i >= activity.size() || activity[i] == Activity::active; }
 };
 
-// A ball's like: its inertia is a number, and no rotation is needed to apply it. Most of a sphere's step was spent on
-// turning vectors into frames that all look alike.
+// As a ball's: the inertia is a number, and no rotation is needed to apply it.
 SCREE_HD inline bool is_isotropic(Vec3 inertia) { return inertia.x == inertia.y && inertia.y == inertia.z; }
 
 // Spin [rad/s] of a body from its angular momentum.
@@ -123,8 +122,7 @@ SCREE_HD inline Vec3 spin_of(Mat3 const& rotation, Vec3 inertia, Vec3 angular_mo
   return rotation * divide(transposed_times(rotation, angular_momentum), inertia);
 }
 SCREE_HD inline Vec3 spin_of(Quat orientation, Vec3 inertia, Vec3 angular_momentum) {
-  if (is_isotropic(inertia)) return angular_momentum * (1 / inertia.x);
-  return spin_of(to_matrix(orientation), inertia, angular_momentum);
+  return spin_of(is_isotropic(inertia) ? Mat3{} : to_matrix(orientation), inertia, angular_momentum);
 }
 // I^-1 torque in the world frame.
 SCREE_HD inline Vec3 inverse_inertia_times(Mat3 const& rotation, Vec3 inertia, Vec3 torque) {
