@@ -92,6 +92,14 @@ std::string replica_note(Case const& c) {
                      c.replicas > named ? ", ..." : "");
 }
 
+std::string precision_note(Precision precision, bool on_gpu) {
+  if (on_gpu) return fmt::format("networks on the GPU in {}", to_string(precision));
+  if (precision == Precision::fp32) return "networks on the CPU in fp32";
+  return fmt::format(
+      "device.precision = \"{}\" is for networks on a GPU; without one they are evaluated on the CPU, in fp32",
+      to_string(precision));
+}
+
 }  // namespace
 
 QueryCounts Simulation::Impl::counts() const {
@@ -129,14 +137,8 @@ Plan Simulation::plan() const {
         b.record / b.grains, b.host / b.grains));
   for (std::string& note : insertion_notes(s.c)) plan.notes.push_back(std::move(note));
   if (s.c.replicas > 1) plan.notes.push_back(replica_note(s.c));
-  if (s.c.device && plan.networks > 0) {
-    std::string const precision = to_string(s.c.device->precision);
-    plan.notes.push_back(s.options.network_device ? "networks on the GPU in " + precision
-                         : s.c.device->precision == Precision::fp32
-                             ? "networks on the CPU in fp32"
-                             : "device.precision = \"" + precision +
-                                   "\" is for networks on a GPU; without one they are evaluated on the CPU, in fp32");
-  }
+  if (s.c.device && plan.networks > 0)
+    plan.notes.push_back(precision_note(s.c.device->precision, s.options.network_device != nullptr));
   if (plan.bodies == 0) plan.notes.push_back("the case has no grains");
   if (std::isfinite(s.estimate.critical)) {
     double const share = s.state.time_step / s.estimate.critical;

@@ -137,6 +137,7 @@ std::string ledger_table(LedgerRow const& r) {
 
 NetworkRate network_rate(QueryCounts const& counts, std::vector<StageRow> const& rows, int threads) {
   NetworkRate out;
+  out.threads = threads;
   if (!(counts.flop > 0)) return out;
   out.flop = counts.flop;
   for (StageRow const& r : rows)
@@ -145,7 +146,7 @@ NetworkRate network_rate(QueryCounts const& counts, std::vector<StageRow> const&
   return out;
 }
 
-std::string query_table(QueryCounts const& c, NetworkRate const& rate, int threads) {
+std::string query_table(QueryCounts const& c, NetworkRate const& rate) {
   if (c.nodes == 0) return {};
   auto const percent = [&](std::int64_t part) {
     return 100 * static_cast<double>(part) / static_cast<double>(c.nodes);
@@ -158,18 +159,18 @@ std::string query_table(QueryCounts const& c, NetworkRate const& rate, int threa
       percent(c.nodes - c.listed), percent(c.listed - c.due));
   if (rate.flop > 0) out += fmt::format("\nnetworks  {:.3g} GFLOP/s", 1e-9 * rate.per_second());
   if (rate.flop > 0 && rate.peak > 0)
-    out += fmt::format(", {:.3g} % of the {:.3g} that {} thread{} can do, measured now",
-                       100 * rate.per_second() / rate.peak, 1e-9 * rate.peak, threads, threads == 1 ? "" : "s");
+    out +=
+        fmt::format(", {:.3g} % of the {:.3g} that {} thread{} can do, measured now",
+                    100 * rate.per_second() / rate.peak, 1e-9 * rate.peak, rate.threads, rate.threads == 1 ? "" : "s");
   return out;
 }
 
-std::string stages_json(std::vector<StageRow> const& rows, NetworkRate const& rate, Simulation const& s, int threads,
-                        double wall) {
+std::string stages_json(std::vector<StageRow> const& rows, NetworkRate const& rate, Simulation const& s, double wall) {
   std::string out = fmt::format(
       "{{\n  \"version\": \"{}\",\n  \"commit\": \"{}\",\n  \"sdf_isa\": \"{}\",\n  \"threads\": {},\n  \"bodies\": "
       "{},\n  \"steps\": {},\n"
       "  \"simulated_seconds\": {},\n  \"wall_seconds\": {},\n  \"particle_steps_per_second\": {},\n",
-      build_info().version, build_info().commit, sdf_isa(), threads, s.bodies(), s.steps(), s.time(), wall,
+      build_info().version, build_info().commit, sdf_isa(), rate.threads, s.bodies(), s.steps(), s.time(), wall,
       static_cast<double>(s.bodies()) * static_cast<double>(s.own_steps()) / std::max(wall, 1e-9));
   QueryCounts const c = s.query_counts();
   out += fmt::format(

@@ -53,16 +53,17 @@ std::string ledger_table(LedgerRow const& row);
 struct NetworkRate {
   double flop = 0;     // useful ones
   double seconds = 0;  // of the stages that make them
-  double peak = 0;     // of all threads [FLOP/s]; 0: not known
+  int threads = 1;
+  double peak = 0;  // of all threads [FLOP/s]; 0: not known
 
   double per_second() const { return seconds > 0 ? flop / seconds : 0; }
 };
 // `peak` is measured here, where the run made any.
 NetworkRate network_rate(QueryCounts const& counts, std::vector<StageRow> const& rows, int threads);
 // Two lines: queries made, and those left out and why; the networks' share of the peak. Empty without surface nodes.
-std::string query_table(QueryCounts const& counts, NetworkRate const& rate, int threads);
+std::string query_table(QueryCounts const& counts, NetworkRate const& rate);
 
 std::string stages_json(std::vector<StageRow> const& rows, NetworkRate const& rate, Simulation const& simulation,
-                        int threads, double wall);
+                        double wall);
 
 }  // namespace scree

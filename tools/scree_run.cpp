@@ -180,13 +180,12 @@ std::string cost_in_words(AccuracyPick const& pick, Simulation const& s, double 
 }
 
 void summarise(RunLog& log, OutputFolder const& folder, Case const& c, Simulation const& s, Recorder const& recorder,
-               Ending const& ending, std::vector<StageRow> const& stages, NetworkRate const& rate, int threads,
-               double wall) {
+               Ending const& ending, std::vector<StageRow> const& stages, NetworkRate const& rate, double wall) {
   double const particle_steps = static_cast<double>(s.bodies()) * static_cast<double>(s.own_steps());
   log.say(fmt::format("{} after {:.6g} s: {} steps, {} frames, {}, {:.4g} particle-steps/s", ending.text, s.time(),
                       grouped(s.steps()), recorder.frames(), duration(wall), particle_steps / std::max(wall, 1e-9)));
   log.say(stage_table(stages, wall));
-  if (std::string const queries = query_table(s.query_counts(), rate, threads); !queries.empty()) log.say(queries);
+  if (std::string const queries = query_table(s.query_counts(), rate); !queries.empty()) log.say(queries);
   log.say(ledger_table(s.ledger()));
   if (LedgerRow const row = s.ledger(); std::abs(row.residual) > c.limits.ledger * row.moved)
     log.say(
@@ -284,8 +283,8 @@ int run_command(RunArguments const& arguments) {
   if (ending.code == exit_ok && checkpoints.scheduled()) last = checkpoints.write(simulation, written);
   if (last) log.say(fmt::format("checkpoint {}", last->string()));
   NetworkRate const rate = network_rate(simulation.query_counts(), stages, options.threads);
-  write_whole_file(folder.file("stages.json"), stages_json(stages, rate, simulation, options.threads, wall), true);
-  summarise(log, folder, c, simulation, recorder, ending, stages, rate, options.threads, wall);
+  write_whole_file(folder.file("stages.json"), stages_json(stages, rate, simulation, wall), true);
+  summarise(log, folder, c, simulation, recorder, ending, stages, rate, wall);
   if (picked.pick) log.say(cost_in_words(*picked.pick, simulation, cpu));
   if (ending.code == exit_watch) fmt::print(stderr, "scree: error: {}\n", ending.text);
   return ending.code;
