@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "kernels/sdf_queries.h"
@@ -64,6 +65,10 @@ struct Bodies {
     return batch;
   }
 };
+
+// Each with a usual parameter.
+inline std::vector<std::pair<Activation, double>> const activations = {
+    {Activation::leaky_relu, 0.01}, {Activation::sine, 5.0}, {Activation::softplus, 20.0}};
 
 inline std::vector<int> widths(int inputs, int hidden, int layers) {
   std::vector<int> w{inputs};
