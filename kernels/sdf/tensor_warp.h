@@ -3,11 +3,10 @@
 // A warp holds matrices in pieces ("fragments"), a few elements a lane. All shapes used here are made of blocks of 8
 // columns of A (rows of B), so that one map serves mma.m16n8k16 and mma.m16n8k8 (PTX ISA, "Matrix fragments for
 // mma.m16n8k16 with floating point type" and "... mma.m16n8k8"). With g = lane / 4 and t = lane % 4:
-//   A (16 x 8): register r = 0, 1: row g + 8 r, columns 2 t and 2 t + 1; m16n8k16 takes the two of one block, then
-//   those
-//               of the next
+//   A (16 x 8): register r = 0, 1: row g + 8 r, columns 2 t and 2 t + 1
 //   B (8 x 8):  one register: rows 2 t and 2 t + 1, column g
 //   C (16 x 8): element i = 0 ... 3: row g + 8 (i / 2), column 2 t + i % 2
+// m16n8k16 takes the registers of one block, then those of the next.
 // C has A's map: what comes out of a layer, rounded in place, is the next layer's A. No lane hands anything on.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once

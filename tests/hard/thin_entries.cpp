@@ -54,8 +54,8 @@ TEST(Hard, NeedlesAndPlatesPile) {
              "no pull-through, no energy gain; closed forms of the box");
   for (Thin const& t : thin) {
     Case c = pile(t, full() ? 8 : 3, 8);
-    // A step is 2e-7 s, by the needle's small moment about its axis; what the pile does it does within 50 ms. Damping
-    // of 50/s then takes 0.2 s from 6 m g d to rest, and it has to stay there without.
+    // A step is 2e-7 s, by the needle's small moment about its axis: 0.5 s are minutes. Damped by 50/s a pile falls at
+    // 0.2 m/s and is not at rest by then (RESULTS.md).
     c.time.end = full() ? 0.5 : 0.02;
     if (full()) c.time.settle = SettleCase{50, 0.05, 1e-8, 0.02};
     Simulation s(c, {});
